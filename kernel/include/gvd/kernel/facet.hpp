@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gvd/kernel/ids.hpp"
+#include "gvd/predicates/site.hpp"
+
+namespace gvd::kernel {
+
+/// What is known of a wave of a facet without any number. The facet f has corners 0, 1, 2 (of half-edges 3f, 3f+1, 3f+2) and
+/// sides 0, 1, 2 (side k from corner k to corner k+1).
+struct FacetSite {
+  WindowId window = kNone;      ///< the window, or kNone for a corner (relay or source)
+  std::uint8_t side = 0;        ///< window: the side over which it comes in
+  std::uint8_t corner = kNoCorner;  ///< corner site: which one
+  VertexId root = kNone;        ///< where the wave starts: a source or a relay
+  LabelSetId labels = kNone;    ///< the nearest sources of the root
+  /// Window: the vertices that bound its cone; 0 on the side of the origin of side `side`, 1 on that of its target.
+  std::array<VertexId, 2> cone{kNone, kNone};
+  /// Window: whether the window attains D at that cone vertex (its boundary ray there is a geodesic). Exact, by lookup.
+  /// If it does and the cone vertex relays, the relay's wave is tangent to this one along the boundary ray.
+  std::array<bool, 2> attains_cone{false, false};
+  /// Whether the wave attains D at corner k of the facet, exactly (known for all three corners of the facet).
+  std::array<bool, 3> attains_corner{false, false, false};
+
+  static constexpr std::uint8_t kNoCorner = 255;
+};
+
+/// The wave set of one facet: the sites, and their numbers for each stage of the ladder. Sites are complete (every wave that is
+/// nearest anywhere in the closed facet is there) and may contain waves that are nearest nowhere.
+class FacetWaves {
+ public:
+  virtual ~FacetWaves() = default;
+
+  FaceId face = kNone;
+  std::array<VertexId, 3> corner{};          ///< vertices of the refined mesh
+  std::array<LabelSetId, 3> corner_labels{};  ///< exact label sets of the corners
+  /// Whether the total angle at corner k is exactly 2 pi (interior) or pi (boundary): then two windows of the same root that pass it on
+  /// either side and both attain it have the same image.
+  std::array<bool, 3> corner_is_flat{};
+  std::vector<FacetSite> sites;
+
+  using F = robust::Ball<double>;
+  using DD = robust::Ball<robust::DoubleDouble>;
+  using M = robust::Ball<robust::Mpfr>;
+
+  /// Numbers in the frame of half-edge 3 * face (corner 0 = 0, corner 1 = 1, corner 2 = apex), weights in units of that side.
+  virtual const predicates::FacetFrame<F>& frame(F) = 0;
+  virtual const predicates::Site<F>& site(std::size_t i, F) = 0;
+  virtual const predicates::FacetFrame<DD>& frame(DD) = 0;
+  virtual const predicates::Site<DD>& site(std::size_t i, DD) = 0;
+  virtual const predicates::FacetFrame<M>& frame(M, int bits) = 0;
+  virtual const predicates::Site<M>& site(std::size_t i, M, int bits) = 0;
+  /// Empty if the strips of the sites and the facet are not all of one square class, or the weights are too involved.
+  virtual const predicates::FacetFrame<robust::Exact>* exact_frame() = 0;
+  virtual const predicates::Site<robust::Exact>* exact_site(std::size_t i) = 0;
+};
+
+}  // namespace gvd::kernel
