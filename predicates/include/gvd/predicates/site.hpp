@@ -26,8 +26,8 @@ template <class NT>
 struct Site {
   PlanePoint<NT> image;
   NT weight;  ///< frame units
-  /// The two vertices that bound the cone, unfolded into the plane (only if the site is a window). p is inside iff it is not to the right of the ray
-  /// image -> cone[1] ... see `cone_side` for the orientation rule.
+  /// The two vertices that bound the cone, unfolded into the plane (windows only; 0 on the side of the origin of the entry side).
+  /// A point p of the facet is in the closed cone iff orientation(image, cone[0], p) <= 0 and orientation(image, cone[1], p) >= 0.
   std::array<PlanePoint<NT>, 2> cone;
   bool has_cone = false;
 };
