@@ -1,0 +1,25 @@
+# The libraries that gvd links, for its own build and for those who link the installed package.
+include(CMakeFindDependencyMacro)
+find_dependency(fmt)
+find_dependency(TBB)
+find_dependency(Threads)
+find_dependency(nlohmann_json)
+
+# GMP and MPFR bring no CMake package. They become imported targets, so that the exported package names no path.
+function(gvd_import_library name header)
+  if(TARGET gvd_GMP::${name})
+    return()
+  endif()
+  find_path(GVD_${name}_INCLUDE_DIR ${header})
+  find_library(GVD_${name}_LIBRARY ${name})
+  mark_as_advanced(GVD_${name}_INCLUDE_DIR GVD_${name}_LIBRARY)
+  if(NOT GVD_${name}_INCLUDE_DIR OR NOT GVD_${name}_LIBRARY)
+    message(FATAL_ERROR "exactgvd needs ${header} and the library ${name} (Debian: libgmp-dev, libmpfr-dev)")
+  endif()
+  add_library(gvd_GMP::${name} UNKNOWN IMPORTED)
+  set_target_properties(gvd_GMP::${name} PROPERTIES
+    IMPORTED_LOCATION ${GVD_${name}_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${GVD_${name}_INCLUDE_DIR})
+endfunction()
+gvd_import_library(gmp gmp.h)
+gvd_import_library(gmpxx gmpxx.h)
+gvd_import_library(mpfr mpfr.h)
