@@ -37,9 +37,10 @@ struct Arc {
   std::array<VertexId, 2> root{kNone, kNone};      ///< relaying vertex (or the source's own vertex in the refined mesh)
 };
 
-/// A maximal chain of arcs between the same two label sets. It ends in GVD vertices or on the boundary of the mesh, or is closed.
+/// A maximal chain of arcs between the same two label sets. It ends in GVD vertices or on the boundary of the mesh, or is closed (then it starts
+/// in its lexicographically smallest break point, or smallest crossing of a mesh edge if it has none).
 struct GvdEdge {
-  std::array<LabelSetId, 2> labels{kNone, kNone};
+  std::array<LabelSetId, 2> labels{kNone, kNone};  ///< left and right, seen along its direction from outside the surface
   std::vector<std::uint32_t> arcs;          ///< in order
   std::array<std::uint32_t, 2> end{kNone, kNone};  ///< indices into Diagram::points; equal and a break point or crossing if closed
   bool closed = false;
@@ -50,6 +51,7 @@ struct BreakPoint {
   std::uint32_t edge = kNone;  ///< the GVD edge on which the conic changes here
 };
 
+/// A point with three or more label sets around it, or one that has more nearest sources than the edges which meet there.
 struct GvdVertex {
   std::uint32_t point = kNone;
   std::vector<SourceId> sources;  ///< all nearest sources, sorted
@@ -57,27 +59,30 @@ struct GvdVertex {
   bool on_boundary = false;
 };
 
-/// The boundary of the mesh met by a GVD edge: an end of an edge that is not a GVD vertex.
+/// The boundary of the mesh (or a facet that is undecided) met by a GVD edge: an end of an edge that is not a GVD vertex.
 struct BoundaryMeeting {
   std::uint32_t point = kNone;
   std::uint32_t edge = kNone;
 };
 
-/// The piece of one face that belongs to one label set; its outline alternates arcs and pieces of the face's sides.
+/// A connected piece of one input face that belongs to one label set; its outline consists of arcs and pieces of the face's sides.
 struct CellPiece {
   FaceId face = kNone;
   LabelSetId labels = kNone;
-  /// Closed counter-clockwise outline. A side piece has arc == kNone. Points index Diagram::points, or, for corners of the face,
-  /// name the corner: kCorner | (0, 1, 2).
+  /// A closed outline, the piece on its left. A piece of a side has arc == kNone (unless a GVD edge runs along it). `from` indexes Diagram::points, or
+  /// names a corner of the face: kCorner | (0, 1, 2). A closed arc has the same point at both ends.
   struct Side {
     std::uint32_t from = kNone;
     std::uint32_t arc = kNone;
     bool reversed = false;  ///< the outline runs against the direction of the arc
   };
-  std::vector<Side> outline;
+  std::vector<Side> outline;             ///< the outer one, counter-clockwise
+  std::vector<std::vector<Side>> holes;  ///< clockwise; they occur only where a source lies in the face
   static constexpr std::uint32_t kCorner = 0x80000000u;
 };
 
+/// The points with s among their nearest sources. Where a vertex relays the waves of several sources at once, a whole region has several: it belongs to
+/// all of their cells.
 struct Cell {
   SourceId source = kNone;
   bool hidden = false;                 ///< another source reaches this one with less than its own weight: the cell is empty
@@ -91,6 +96,12 @@ struct DualEdge {
   std::vector<std::uint32_t> edges;               ///< the GVD edges between the two
 };
 
+/// All faces and pieces of faces whose label set is one set of two or more sources.
+struct SharedRegion {
+  LabelSetId labels = kNone;
+  double area = 0;  ///< for information
+};
+
 /// The geodesic Voronoi diagram. Plain data; nothing in it depends on the order of computation.
 struct Diagram {
   std::vector<std::vector<SourceId>> label_sets;  ///< LabelSetId -> sorted sources
@@ -100,9 +111,12 @@ struct Diagram {
   std::vector<GvdVertex> vertices;
   std::vector<BreakPoint> break_points;
   std::vector<BoundaryMeeting> boundary_meetings;
+  std::vector<BoundaryMeeting> open_ends;   ///< edges that end because a facet is undecided
+  std::vector<FaceId> undecided_faces;      ///< input faces with an undecided facet or side, sorted; the diagram has no pieces there
   std::vector<Cell> cells;                  ///< per source
   std::vector<DualEdge> dual;
-  std::vector<LabelSetId> face_label;       ///< per input face: its only label set, or kNone for a boundary facet
+  std::vector<SharedRegion> shared;         ///< sorted by label set
+  std::vector<LabelSetId> face_label;       ///< per input face: its only label set; kNone for boundary, undecided and unreachable faces
   std::vector<CellPiece> pieces;            ///< of boundary facets, sorted by face
   std::uint32_t boundary_facets = 0;
 };
