@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <random>
 #include <set>
 
@@ -99,7 +98,6 @@ void check_refinement(const Mesh& given, const std::vector<Source>& sources, con
   check_rounding(refined);
   EXPECT_EQ(euler(refined), euler(given));
   ASSERT_EQ(where.vertex.size(), sources.size());
-  std::map<ExactPoint, std::set<VertexId>> at;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     EXPECT_EQ(refined.exact_point(where.vertex[i]), exact_position(given, sources[i].at)) << "source " << i;
     EXPECT_EQ(where.weight[i], sources[i].weight);
