@@ -1,0 +1,35 @@
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace gvd::robust {
+
+/// x as a rational, exactly. Throws std::domain_error if x is not finite.
+mpq_class exact_rational(double x);
+
+/// 2^k as a rational.
+mpq_class power_of_two(long k);
+
+/// The non-negative rational square root of q, if it has one.
+std::optional<mpq_class> rational_square_root(const mpq_class& q);
+
+/// Whether q is the square of a rational. Zero is.
+bool is_square(const mpq_class& q);
+
+/// Whether a and b differ by the square of a non-zero rational, that is sqrt(a) / sqrt(b) is rational. Pre: neither is zero.
+bool same_square_class(const mpq_class& a, const mpq_class& b);
+
+/// Bit i is the Legendre symbol, modulo the i-th of 64 fixed primes p below 2^62, of q with all factors p taken out (1 for a non-residue).
+/// Taking the factors out makes it a homomorphism of the non-zero rationals modulo squares, with no exceptions:
+/// signature(a b) = signature(a) xor signature(b), signature(square) = 0. So different signatures prove different classes; equal ones
+/// say nothing until `same_square_class` confirms it. Pre: q is not zero. Cost: some 5 microseconds.
+std::uint64_t square_class_signature(const mpq_class& q);
+
+/// The primes of the signature.
+const std::array<std::uint64_t, 64>& signature_primes();
+
+}  // namespace gvd::robust

@@ -1,0 +1,79 @@
+#include "gvd/robust/root_sum.hpp"
+
+#include <stdexcept>
+
+#include "correct_rounding.hpp"
+#include "gvd/robust/rational.hpp"
+
+namespace gvd::robust {
+
+namespace {
+
+MpfrInterval evaluated(const RootSum& x, int bits) {
+  MpfrInterval sum(x.constant(), bits);
+  for (const auto& term : x.terms()) sum = sum + MpfrInterval(term.coefficient, bits) * sqrt(MpfrInterval(term.radicand, bits));
+  return sum;
+}
+
+// An interval of relative width at most 2^-bits. It ends, because a number that is not zero is not zero.
+MpfrInterval narrow_interval(const RootSum& x, int bits) {
+  if (x.is_zero()) return MpfrInterval(bits);
+  for (int working = bits + 32;; working *= 2) {
+    const MpfrInterval interval = evaluated(x, working);
+    if (interval.is_narrow(bits)) return interval;
+  }
+}
+
+}  // namespace
+
+RootSum& RootSum::add(const mpq_class& coefficient, const mpq_class& radicand) {
+  if (sgn(radicand) < 0) throw std::domain_error("the square root of a negative number is not real");
+  if (sgn(radicand) == 0 || sgn(coefficient) == 0) return *this;
+  if (const auto root = rational_square_root(radicand))
+    constant_ += coefficient * *root;
+  else
+    add_class(coefficient, radicand, square_class_signature(radicand));
+  return *this;
+}
+
+void RootSum::add_class(const mpq_class& coefficient, const mpq_class& radicand, std::uint64_t signature) {
+  for (auto term = terms_.begin(); term != terms_.end(); ++term) {
+    if (term->signature != signature) continue;
+    const auto ratio = rational_square_root(radicand / term->radicand);
+    if (!ratio) continue;
+    term->coefficient += coefficient * *ratio;
+    if (sgn(term->coefficient) == 0) terms_.erase(term);
+    return;
+  }
+  terms_.push_back({coefficient, radicand, signature});
+}
+
+RootSum& RootSum::operator+=(const RootSum& other) {
+  if (this == &other) return *this *= 2;
+  constant_ += other.constant_;
+  for (const auto& term : other.terms_) add_class(term.coefficient, term.radicand, term.signature);
+  return *this;
+}
+
+RootSum& RootSum::operator-=(const RootSum& other) { return *this += other * mpq_class(-1); }
+
+RootSum& RootSum::operator*=(const mpq_class& factor) {
+  constant_ *= factor;
+  if (sgn(factor) == 0) terms_.clear();
+  for (auto& term : terms_) term.coefficient *= factor;
+  return *this;
+}
+
+Sign RootSum::sign() const {
+  if (terms_.empty()) return static_cast<Sign>(sgn(constant_));
+  return *narrow_interval(*this, 1).sign();
+}
+
+double RootSum::rounded() const {
+  return correctly_rounded([&](int bits) { return narrow_interval(*this, bits); },
+                           [&](const mpq_class& q) { return (*this - RootSum(q)).sign(); });
+}
+
+Ball<Mpfr> RootSum::enclosure(int bits) const { return narrow_interval(*this, bits).to_ball(); }
+
+}  // namespace gvd::robust
