@@ -4,6 +4,7 @@ find_dependency(fmt)
 find_dependency(TBB)
 find_dependency(Threads)
 find_dependency(nlohmann_json)
+find_dependency(ZLIB)
 
 # GMP and MPFR bring no CMake package. They become imported targets, so that the exported package names no path.
 function(gvd_import_library name header)

@@ -103,8 +103,9 @@ std::string summary_text(const kernel::Summary& summary, const predicates::Decis
 std::string facts_json(const kernel::MeshFacts& facts) { return dump(facts_object(facts)); }
 
 std::string facts_text(const kernel::MeshFacts& facts) {
+  const Json json = facts_object(facts);
   std::string text;
-  for (const auto& [key, value] : facts_object(facts).items()) text += line(key, dump(value));
+  for (const auto& [key, value] : json.items()) text += line(key, dump(value));
   return text;
 }
 

@@ -84,7 +84,7 @@ class Map {
     out_ << fmt::format("<text x=\"{}\" y=\"40\" font-size=\"25\" font-weight=\"bold\" fill=\"#22303a\">Geodesic Voronoi diagram of {}</text>\n",
                         kMargin, escaped(view_.mesh_name));
     const auto& summary = view_.summary;
-    out_ << fmt::format("<text x=\"{}\" y=\"65\" font-size=\"15\" fill=\"#5a6872\">{} · {} · {} · {} · {} · {}</text>\n", kMargin,
+    out_ << fmt::format("<text x=\"{}\" y=\"65\" font-size=\"15\" fill=\"#5a6872\">{} &#183; {} &#183; {} &#183; {} &#183; {} &#183; {}</text>\n", kMargin,
                         counted(view_.mesh.face_count(), "triangle", "triangles"), counted(summary.sources, "source", "sources"),
                         counted(summary.gvd_edges, "Voronoi edge", "Voronoi edges"),
                         counted(summary.gvd_vertices, "Voronoi vertex", "Voronoi vertices"),
