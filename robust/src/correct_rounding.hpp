@@ -1,7 +1,10 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <optional>
 
+#include "gvd/robust/rounding.hpp"
 #include "mpfr_interval.hpp"
 
 namespace gvd::robust {
@@ -9,34 +12,26 @@ namespace gvd::robust {
 /// The double that all members of the interval round to, if there is one.
 std::optional<double> rounded(const MpfrInterval& x);
 
-/// The correctly rounded double of an exact number, given `enclosure(bits)` (an interval of relative width about 2^-bits) and
-/// `sign_of_difference(q)`, the exact sign of the number minus a rational. At most one exact comparison is made, with the midpoint of
-/// two doubles which the enclosure does not tell apart.
+/// Whether the last bit of the significand is 0; infinity counts as even, as rounding to nearest has it.
+inline bool is_even(double x) { return (std::bit_cast<std::uint64_t>(x) & 1) == 0; }
+
+/// The correctly rounded double of an exact number, given `enclosure(bits)` (an interval of relative width at most 2^-bits) and
+/// `sign_of_difference(q)`, the sign of the number minus a rational. At most one exact comparison is made, with the midpoint of two doubles
+/// that the enclosure does not tell apart; empty if that has no answer.
 template <class Enclosure, class SignOfDifference>
-double correctly_rounded(const Enclosure& enclosure, const SignOfDifference& sign_of_difference);
-
-}  // namespace gvd::robust
-
-#include "gvd/robust/rounding.hpp"
-
-namespace gvd::robust {
-
-template <class Enclosure, class SignOfDifference>
-double correctly_rounded(const Enclosure& enclosure, const SignOfDifference& sign_of_difference) {
+std::optional<double> correctly_rounded(const Enclosure& enclosure, const SignOfDifference& sign_of_difference) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kLargest = std::numeric_limits<double>::max();
   constexpr int kFirstBits = 128, kLastBits = 256;
   for (int bits = kFirstBits; bits <= kLastBits; bits *= 2)
-    if (const auto value = rounded(enclosure(bits))) return *value;
+    if (const auto value = rounded(enclosure(bits))) return value;
   // The interval is much narrower than the gap between two doubles, so it contains exactly one midpoint.
-  double below = enclosure(kLastBits).low().to_double() + 0.0;
-  if (below == -std::numeric_limits<double>::infinity()) {
-    const double largest = std::numeric_limits<double>::max();
-    const Sign sign = sign_of_difference(-rounding_midpoint_above(largest));
-    return sign == Sign::positive ? -largest : below;
-  }
-  const Sign sign = sign_of_difference(rounding_midpoint_above(below));
-  const double above = std::nextafter(below, std::numeric_limits<double>::infinity());
-  if (sign == Sign::zero) return std::fma(0.5, above - below, below);
-  return sign == Sign::negative ? below : above;
+  const double below = enclosure(kLastBits).low().to_double() + 0.0;
+  const double above = below == -kInfinity ? -kLargest : std::nextafter(below, kInfinity);
+  const mpq_class midpoint = below == -kInfinity ? mpq_class(-rounding_midpoint_above(kLargest)) : rounding_midpoint_above(below);
+  const MaybeSign sign = sign_of_difference(midpoint);
+  if (!sign) return std::nullopt;
+  if (*sign == Sign::zero) return is_even(below) ? below : above;
+  return *sign == Sign::negative ? below : above;
 }
 
 }  // namespace gvd::robust

@@ -70,8 +70,8 @@ Sign RootSum::sign() const {
 }
 
 double RootSum::rounded() const {
-  return correctly_rounded([&](int bits) { return narrow_interval(*this, bits); },
-                           [&](const mpq_class& q) { return (*this - RootSum(q)).sign(); });
+  return *correctly_rounded([&](int bits) { return narrow_interval(*this, bits); },
+                            [&](const mpq_class& q) { return MaybeSign((*this - RootSum(q)).sign()); });
 }
 
 Ball<Mpfr> RootSum::enclosure(int bits) const { return narrow_interval(*this, bits).to_ball(); }

@@ -1,8 +1,17 @@
 #pragma once
 
+#include <cfloat>
 #include <cmath>
+#include <limits>
+
+#ifdef __FAST_MATH__
+#error "the error bounds do not hold under -ffast-math"
+#endif
 
 namespace gvd::robust {
+
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53, "double must be IEEE 754 binary64");
+static_assert(FLT_EVAL_METHOD == 0, "doubles must be evaluated in double: compile with SSE2 (-mfpmath=sse), not with the x87 unit");
 
 /// An unevaluated sum hi + lo of two doubles with hi = the double nearest to hi + lo: about 106 bits.
 /// Algorithms: Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic",

@@ -3,6 +3,7 @@
 #include <gmpxx.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "gvd/robust/ball.hpp"
@@ -17,10 +18,14 @@ namespace gvd::robust {
 /// empty. Elements of one quadratic field Q(sqrt d) stay in normal form (three rationals) and cost a few GMP operations. Everything else
 /// is an expression whose sign costs MPFR work that grows with the number of bits of a separation bound, which doubles with every
 /// further independent root: meant for short formulas over one square class.
+/// (and sums of roots of plain rationals are better served by RootSum). The separation bound is that of Burnikel, Funke, Mehlhorn, Schirra and
+/// Schmitt, "A separation bound for real algebraic expressions", ESA 2001; docs/error-bounds.md#separation-bound. Where it asks for
+/// more than kMostBits bits the sign may stay empty; such a number as divisor or radicand makes the result undefined.
 /// Values are immutable; distinct objects may be used by distinct threads, also copies of one another.
 class Exact {
  public:
   class Node;
+  static constexpr long kMostBits = 1L << 20;
 
   Exact() : Exact(0.0) {}
   /// Exactly x; undefined if x is not finite.
@@ -44,21 +49,27 @@ class Exact {
   Exact& operator*=(const Exact& b) { return *this = *this * b; }
   Exact& operator/=(const Exact& b) { return *this = *this / b; }
 
-  /// The sign; empty only if undefined.
+  /// The sign; empty only if undefined or out of reach (see above). Decided once, then remembered.
   friend MaybeSign maybe_sign(const Exact& a);
 
   bool is_defined() const noexcept { return node_ != nullptr; }
-  /// The correctly rounded double (ties to even, subnormals and overflow included). Not a number if undefined.
-  double rounded() const;
-  /// An enclosure whose midpoint has `bits` bits and a relative error of about 2^-bits (zero is exact). Infinite radius if undefined.
+  /// The correctly rounded double (ties to even, subnormals and overflow as IEEE 754). Empty only if undefined or out of reach.
+  friend std::optional<double> rounded(const Exact& a);
+  /// An enclosure of relative radius at most 2^-bits where that is not limited by the range of double (zero is exact). Infinite
+  /// radius if undefined or out of reach.
   Ball<Mpfr> enclosure(int bits) const;
-  /// Rationals around the number at most 2^-bits times its magnitude apart (equal for rationals). Pre: defined.
-  std::pair<mpq_class, mpq_class> bounds(int bits) const;
+  /// Rationals around the number, at most 2^-bits times its magnitude apart (equal for rationals). Empty if undefined or out of reach.
+  std::optional<std::pair<mpq_class, mpq_class>> bounds(int bits) const;
+  /// The number itself if it was recognised to be rational (which is always so when no root occurs in it, but not only then).
+  std::optional<mpq_class> rational() const;
 
  private:
   explicit Exact(std::shared_ptr<const Node> node) noexcept : node_(std::move(node)) {}
   std::shared_ptr<const Node> node_;
 };
+
+MaybeSign maybe_sign(const Exact& a);
+std::optional<double> rounded(const Exact& a);
 
 template <>
 Exact from<Exact>(const mpq_class& q, int bits);
