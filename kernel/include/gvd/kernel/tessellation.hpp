@@ -10,6 +10,8 @@
 namespace gvd::kernel {
 
 /// The exact lower envelope of the waves of one facet (docs/architecture.md#tessellation-of-a-facet). Indices of sites are those of `FacetWaves::sites`.
+/// Windows of one root with the same image (they pass a flat vertex on either side) are one region; the lowest index stands for it.
+/// A corner site whose region touches the facet only in its corner has no region here.
 struct FacetTessellation {
   static constexpr std::uint32_t kNoSite = 0xffffffffu;
 
@@ -17,16 +19,23 @@ struct FacetTessellation {
     enum class Kind : std::uint8_t { corner, side, inside };
     Kind kind = Kind::inside;
     std::uint8_t where = 0;           ///< corner k or side k
-    std::vector<std::uint32_t> sites;  ///< the sites whose regions meet here, counter-clockwise (at least two; all that are proved to tie)
-    /// How to construct the point again in any number type: the counter-clockwise triple (inside), the pair (side), or nothing (corner).
+    /// The sites whose regions meet here, counter-clockwise; at a corner or on a side from the direction in which the outline goes on to
+    /// the one it came from. At least two; all regions that have this point as a corner.
+    std::vector<std::uint32_t> sites;
+    /// How to construct the point again in any number type (kernel/node_point.hpp): inside, the counter-clockwise triple; on a side, the site
+    /// before and the site after the point, along the outline; nothing at a corner.
     std::array<std::uint32_t, 3> defining{kNoSite, kNoSite, kNoSite};
+    /// If set, the point lies on the boundary ray of this site through its cone vertex `ray_end`, by identity. Inside the facet,
+    /// `defining` is then {relay, third site}.
+    std::uint32_t ray = kNoSite;
+    std::uint8_t ray_end = 0;
     robust::Ball<double> x, y;        ///< frame of half-edge 3 * face, frame units
     robust::Ball<double> t;           ///< on a side: parameter along the side, 0 at corner k, 1 at corner k + 1
   };
   struct Arc {
     std::uint32_t left = kNoSite, right = kNoSite;  ///< regions beside the arc, seen along from -> to
     std::uint32_t from = 0, to = 0;                  ///< nodes
-    bool tangent = false;                            ///< the bisector is a ray behind the focus (relay against its parent), or the sites have one image
+    bool tangent = false;                            ///< the bisector is a ray behind the focus: a relay against its parent
   };
   /// What lies just inside the facet along its outline, counter-clockwise from corner 0: the regions met, in order.
   struct Piece {
