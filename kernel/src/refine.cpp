@@ -10,7 +10,7 @@
 #include "gvd/kernel/error.hpp"
 #include "gvd/kernel/source.hpp"
 #include "gvd/kernel/surface_point.hpp"
-#include "rational_rounding.hpp"
+#include "gvd/robust/root_sum.hpp"
 
 namespace gvd::kernel {
 namespace {
@@ -151,7 +151,7 @@ std::uint32_t MeshRefiner::find_leaf(const SplitFace& split, const PlanePoint& p
 VertexId MeshRefiner::add_vertex(const SurfacePoint& at) {
   mesh_.inserted_.push_back(exact_position(given_, at));
   const ExactPoint& p = mesh_.inserted_.back();
-  mesh_.points_.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+  mesh_.points_.push_back({robust::RootSum(p[0]).rounded(), robust::RootSum(p[1]).rounded(), robust::RootSum(p[2]).rounded()});
   mesh_.outgoing_.push_back(kNone);
   return mesh_.vertex_count_++;
 }

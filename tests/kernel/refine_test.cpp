@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <chrono>
 #include <cmath>
-#include <iostream>
+#include <ctime>
 #include <random>
 #include <set>
 
@@ -325,11 +324,10 @@ TEST(Refine, AThousandSourcesAreCheap) {
     for (auto& b : sources.back().at.bary) b.canonicalize();
   }
   RefinedSources where;
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   const Mesh refined = refine(mesh, sources, where);
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   RecordProperty("milliseconds", std::to_string(ms));
-  std::cout << "refine: " << ms << " ms\n";
   EXPECT_EQ(refined.vertex_count(), mesh.vertex_count() + 1000);
   EXPECT_LT(ms, 1000);  // it takes about 10; the bound only tells a quadratic algorithm
 }
