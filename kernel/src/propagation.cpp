@@ -1,0 +1,634 @@
+#include "propagation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gvd::kernel {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+// docs/error-bounds.md#propagation derives each of these.
+constexpr double kFrameError = 12 * kUnit;      // relative error of a frame's apex, as a disc
+constexpr double kStepError = 20 * kUnit;       // error of one crossing over the largest distance to a corner of the face
+constexpr double kDistanceError = 16 * kUnit;   // relative error of weight + length * |z|
+constexpr double kOrientationError = 6 * kUnit;  // rounding of a 2x2 determinant over the product of the 1-norms
+
+double norm1(double x, double y) { return std::fabs(x) + std::fabs(y); }
+
+}  // namespace
+
+Propagation::Propagation(const Mesh& mesh, const std::vector<Frame>& frames, const std::vector<VertexKind>& kinds,
+                         DistanceField& field, predicates::Decisions& decisions)
+    : mesh_(mesh), frames_(frames), kinds_(kinds), field_(field), decisions_(decisions) {
+  const std::size_t n = mesh.vertex_count(), m = mesh.halfedge_count();
+  const double infinity = std::numeric_limits<double>::infinity();
+  field_.first_window.assign(m, kNone);
+  field_.first_candidate.assign(n, kNone);
+  field_.distance.assign(n, infinity);
+  field_.error.assign(n, 0);
+  waiting_.resize(m);
+  queued_.assign(m, 0);
+  sights_.resize(m);
+  upper_.assign(n, infinity);
+  settled_.assign(n, 0);
+  emitted_weight_.assign(n, infinity);
+  emitted_error_.assign(n, 0);
+  emitted_.assign(m, kNone);
+}
+
+bool Propagation::run(std::span<const WaveStart> starts, PropagationPoll poll, void* user) {
+  for (const WaveStart& s : starts) relax(s.vertex, {kNone, s.vertex, kNone, s.weight, 0, {0, 0}});
+  std::uint64_t settled = 0;
+  while (!heap_.empty()) {
+    const Entry top = heap_.top();
+    heap_.pop();
+    if (settled_[top.vertex] != 0 || top.distance != field_.distance[top.vertex]) continue;
+    settle(top.vertex);
+    drain();
+    if ((++settled & 1023) == 0 && poll != nullptr &&
+        !poll(user, settled, field_.windows.capacity() * sizeof(WindowRecord) + waves_.capacity() * sizeof(Wave)))
+      return false;
+  }
+  predicates::count(decisions_, predicates::Predicate::window_orientation, robust::Stage::filter);
+  decisions_.count(static_cast<std::size_t>(predicates::Predicate::window_orientation), robust::Stage::filter, filtered_orientations_);
+  decisions_.count(static_cast<std::size_t>(predicates::Predicate::window_pruning), robust::Stage::filter, filtered_prunings_);
+  return true;
+}
+
+void Propagation::settle(VertexId v) {
+  settled_[v] = 1;
+  emitted_weight_[v] = field_.distance[v];
+  emitted_error_[v] = field_.error[v] + kDistanceError * field_.distance[v];
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
+    const Candidate arrival = field_.candidates[c];
+    if (arrival.window == kNone && arrival.via == v) {
+      emit_all(v);
+    } else if (kinds_[v] == VertexKind::relay) {
+      emit_shadow(v, arrival);
+    }
+  }
+  const double d = field_.distance[v], e = field_.error[v];
+  mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
+    const double along = d + frames_[h].length;
+    relax(mesh_.target(h), {kNone, v, kNone, along, e + kDistanceError * along, {0, 0}});
+    const HalfedgeId last = Mesh::prev(h);  // the edge to the last neighbour of a boundary fan
+    if (mesh_.twin(last) == kNone) {
+      const double back = d + frames_[last].length;
+      relax(mesh_.origin(last), {kNone, v, kNone, back, e + kDistanceError * back, {0, 0}});
+    }
+  });
+  push_lists_at(v);
+}
+
+void Propagation::relax(VertexId v, const Candidate& candidate) {
+  if (candidate.distance - candidate.error > upper_[v]) return;
+  auto& list = field_.candidates;
+  const double up = (candidate.distance + candidate.error) * (1 + 4 * kUnit);
+  if (up < upper_[v]) {
+    upper_[v] = up;
+    std::uint32_t* link = &field_.first_candidate[v];
+    while (*link != kNone) {
+      const Candidate& old = list[*link];
+      if (old.distance - old.error > up) {
+        *link = old.next;
+      } else {
+        link = &list[*link].next;
+      }
+    }
+  }
+  list.push_back(candidate);
+  list.back().next = field_.first_candidate[v];
+  field_.first_candidate[v] = static_cast<std::uint32_t>(list.size() - 1);
+  const bool nearer = candidate.distance < field_.distance[v];
+  if (nearer) field_.distance[v] = candidate.distance;
+  double low = candidate.distance;
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next) low = std::min(low, list[c].distance - list[c].error);
+  field_.error[v] = std::max(field_.distance[v] - low, upper_[v] - field_.distance[v]);
+  if (settled_[v] == 0) {
+    if (nearer) heap_.push({candidate.distance, v});
+    return;
+  }
+  // A settled vertex improves: rare. Its own waves start anew if their weight is no longer within its error.
+  const bool is_source = [&] {
+    for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next)
+      if (list[c].window == kNone && list[c].via == v) return true;
+    return false;
+  }();
+  if (low < emitted_weight_[v] - emitted_error_[v]) {
+    superseded_ = true;
+    emitted_weight_[v] = field_.distance[v];
+    emitted_error_[v] = field_.error[v] + kDistanceError * field_.distance[v];
+    mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
+      if (emitted_[h] != kNone) field_.windows[emitted_[h]].packed |= WindowRecord::kDead;
+      emitted_[h] = kNone;
+    });
+    if (is_source) {
+      emit_all(v);
+    } else if (kinds_[v] == VertexKind::relay) {
+      for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next) emit_shadow(v, Candidate(list[c]));
+    }
+    const double d = field_.distance[v], e = field_.error[v];
+    mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
+      const double along = d + frames_[h].length;
+      relax(mesh_.target(h), {kNone, v, kNone, along, e + kDistanceError * along, {0, 0}});
+      const HalfedgeId last = Mesh::prev(h);
+      if (mesh_.twin(last) == kNone) {
+        const double back = d + frames_[last].length;
+        relax(mesh_.origin(last), {kNone, v, kNone, back, e + kDistanceError * back, {0, 0}});
+      }
+    });
+  } else if (!is_source && kinds_[v] == VertexKind::relay && candidate.window != kNone) {
+    emit_shadow(v, candidate);
+  }
+}
+
+void Propagation::emit_all(VertexId v) {
+  mesh_.for_each_outgoing(v, [&](HalfedgeId h) { emit(v, h); });
+}
+
+void Propagation::emit(VertexId v, HalfedgeId outgoing) {
+  if (emitted_[outgoing] != kNone) return;
+  const HalfedgeId opposite = Mesh::next(outgoing);
+  const HalfedgeId target = mesh_.twin(opposite);
+  if (target == kNone) return;
+  const Frame& frame = frames_[opposite];
+  const std::uint32_t w = new_wave();
+  Wave& wave = waves_[w];
+  wave.image = predicates::apex_from_behind(frame);
+  wave.cone0 = {0, 0};
+  wave.cone1 = {1, 0};
+  wave.begin = 0;
+  wave.end = 1;
+  wave.weight = emitted_weight_[v];
+  wave.weight_error = static_cast<float>(emitted_error_[v] * (1 + 0x1p-20));
+  wave.image_error = static_cast<float>(kStepError * (norm1(wave.image.x, wave.image.y) + 1) * frame.length);
+  wave.begin_slack = wave.end_slack = 0;
+  wave.begin_trimmed = wave.end_trimmed = false;
+  wave.window = new_window(kNone, target, v, false);
+  emitted_[outgoing] = wave.window;
+  append(target, w);
+  push(target);
+}
+
+namespace {
+
+/// Turns by less than half a turn a step; says when half a turn may be full.
+class HalfTurn {
+ public:
+  explicit HalfTurn(predicates::Complex<double> start) : at_(start) {}
+  /// Multiplies by the corner's direction; true if the sum of the angles may have reached pi.
+  bool reached_by(double x, double y) {
+    const predicates::Complex<double> p{at_.x * x - at_.y * y, at_.x * y + at_.y * x};
+    error_ = error_ + 24 * kUnit;
+    const double size = norm1(p.x, p.y);
+    at_ = {p.x / size, p.y / size};
+    return at_.y <= error_;
+  }
+
+ private:
+  predicates::Complex<double> at_;
+  double error_ = 24 * kUnit;
+};
+
+}  // namespace
+
+void Propagation::emit_shadow(VertexId v, const Candidate& arrival) {
+  // The fan, counter-clockwise: face i of the fan lies between outgoing[i] and the next one.
+  thread_local std::vector<HalfedgeId> fan;
+  fan.clear();
+  mesh_.for_each_outgoing(v, [&](HalfedgeId h) { fan.push_back(h); });
+  const std::size_t n = fan.size();
+  const bool closed = !mesh_.is_boundary(v);
+  std::size_t ccw_face, cw_steps_from;  // first whole face counter-clockwise; number of faces before which we go clockwise
+  Image ccw_start, cw_start;            // the angle already turned at the arrival's face
+  if (arrival.window != kNone) {
+    const HalfedgeId h = field_.windows[arrival.window].halfedge();
+    const std::size_t k = static_cast<std::size_t>(std::find(fan.begin(), fan.end(), Mesh::prev(h)) - fan.begin());
+    const Frame& f = frames_[h];
+    const Image back{arrival.image.x - f.u, arrival.image.y - f.y};
+    const Image to_a{-f.u, -f.y}, to_b{f.v, -f.y};
+    ccw_start = {to_b.x * back.x + to_b.y * back.y, to_b.y * back.x - to_b.x * back.y};
+    cw_start = {back.x * to_a.x + back.y * to_a.y, back.y * to_a.x - back.x * to_a.y};
+    ccw_face = k + 1;
+    cw_steps_from = k;
+  } else {
+    std::size_t k = 0;
+    while (k < n && mesh_.target(fan[k]) != arrival.via) ++k;
+    ccw_start = cw_start = {1, 0};
+    ccw_face = k;  // k == n: along the last edge of a boundary fan
+    cw_steps_from = k;
+  }
+  const auto normalised = [](Image z) {
+    const double size = norm1(z.x, z.y);
+    return Image{z.x / size, z.y / size};
+  };
+  // Counter-clockwise: the first face in which half a turn may be full.
+  HalfTurn ccw(normalised(ccw_start)), cw(normalised(cw_start));
+  std::size_t first = n, last = n;
+  for (std::size_t step = 0; step < n; ++step) {
+    const std::size_t i = ccw_face + step;
+    if (!closed && i >= n) break;
+    const Frame& f = frames_[fan[i % n]];
+    if (ccw.reached_by(f.u, f.y)) {
+      first = i;
+      break;
+    }
+  }
+  for (std::size_t step = 1; step <= n; ++step) {
+    if (!closed && cw_steps_from < step) break;
+    const std::size_t i = (cw_steps_from + n - step) % n;
+    const Frame& f = frames_[fan[i]];
+    if (cw.reached_by(f.u, f.y)) {
+      last = i;
+      break;
+    }
+  }
+  if (closed) {
+    if (first == n || last == n) {  // no shadow could be told apart: the whole fan is safe
+      emit_all(v);
+      return;
+    }
+    for (std::size_t i = first % n;; i = (i + 1) % n) {
+      emit(v, fan[i]);
+      if (i == last) break;
+    }
+  } else {
+    for (std::size_t i = first; i < n; ++i) emit(v, fan[i]);
+    if (last != n)
+      for (std::size_t i = 0; i <= last; ++i) emit(v, fan[i]);
+  }
+}
+
+void Propagation::push_lists_at(VertexId v) {
+  mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
+    // The face between h and prev(h): its two sides at v in both directions, and the side opposite v, inwards and outwards.
+    const HalfedgeId opposite = Mesh::next(h), back = Mesh::prev(h);
+    push(h);
+    push(back);
+    push(opposite);
+    if (mesh_.twin(h) != kNone) push(mesh_.twin(h));
+    const HalfedgeId outwards = mesh_.twin(opposite);
+    if (outwards != kNone && field_.distance[mesh_.apex(outwards)] < std::numeric_limits<double>::infinity()) push(outwards);
+  });
+}
+
+void Propagation::push(HalfedgeId h) {
+  if (queued_[h] != 0 || waiting_[h].first == kNone) return;
+  queued_[h] = 1;
+  fifo_.push_back(h);
+}
+
+void Propagation::drain() {
+  while (fifo_head_ < fifo_.size()) {
+    const HalfedgeId h = fifo_[fifo_head_++];
+    queued_[h] = 0;
+    cross_face(h);
+  }
+  fifo_.clear();
+  fifo_head_ = 0;
+}
+
+Propagation::Sight Propagation::locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame) {
+  const double wx = frame.u - wave.image.x, wy = frame.y - wave.image.y;
+  const double x0 = wave.cone0.x - wave.image.x, y0 = wave.cone0.y - wave.image.y;
+  const double x1 = wave.cone1.x - wave.image.x, y1 = wave.cone1.y - wave.image.y;
+  const double side0 = x0 * wy - y0 * wx, side1 = x1 * wy - y1 * wx;
+  const double disc = wave.image_error / frame.length + kFrameError * norm1(frame.u, frame.y);
+  const double size = norm1(wx, wy) + 2 * disc, size0 = norm1(x0, y0) + 2 * disc, size1 = norm1(x1, y1) + 2 * disc;
+  const double bound0 = 2.125 * disc * (size + size0) + kOrientationError * size * size0;
+  const double bound1 = 2.125 * disc * (size + size1) + kOrientationError * size * size1;
+  ++filtered_orientations_;
+  if (side0 > bound0) return Sight::beyond_0;
+  if (side1 < -bound1) return Sight::beyond_1;
+  if (side0 < -bound0 && side1 > bound1) return Sight::inside;
+  --filtered_orientations_;
+  return decide_apex(wave, h);
+}
+
+Propagation::Sight Propagation::decide_apex(const Wave&, HalfedgeId) {
+  predicates::count(decisions_, predicates::Predicate::window_orientation, robust::Stage::undecided);
+  return Sight::inside;
+}
+
+void Propagation::trim_list(HalfedgeId h) {
+  list_.clear();
+  kept_.clear();
+  const auto recycle = [&](std::uint32_t w) {
+    waves_[w].next = free_wave_;
+    free_wave_ = w;
+  };
+  for (std::uint32_t w = waiting_[h].first; w != kNone;) {
+    const std::uint32_t next = waves_[w].next;
+    if (superseded_ && waves_[w].weight != emitted_weight_[field_.windows[waves_[w].window].root]) {
+      recycle(w);
+    } else {
+      list_.push_back(w);
+    }
+    w = next;
+  }
+  waiting_[h] = {};
+  for (std::size_t i = 1; i < list_.size(); ++i) {  // nearly sorted and short
+    const std::uint32_t w = list_[i];
+    std::size_t k = i;
+    for (; k > 0 && waves_[list_[k - 1]].begin > waves_[w].begin; --k) list_[k] = list_[k - 1];
+    list_[k] = w;
+  }
+  const double length = frames_[h].length;
+  for (const std::uint32_t w : list_) {
+    bool keep = true;
+    while (!kept_.empty()) {
+      const Trim t = trim(waves_[kept_.back()], waves_[w], length);
+      if (t == Trim::drop_second) keep = false;
+      if (t != Trim::drop_first) break;
+      recycle(kept_.back());
+      kept_.pop_back();
+    }
+    if (keep) {
+      kept_.push_back(w);
+    } else {
+      recycle(w);
+    }
+  }
+}
+
+namespace {
+
+/// Distance and slope along the side of a wave at x.
+struct Profile {
+  double distance, slope, reach;
+};
+template <class Wave>
+Profile profile(const Wave& wave, double x, double length) {
+  const double dx = x - wave.image.x;
+  const double r = std::sqrt(dx * dx + wave.image.y * wave.image.y);
+  return {wave.weight + length * r, dx / r, r};
+}
+
+}  // namespace
+
+/// Cuts off what is certainly longer where two windows of one half-edge overlap (first.begin <= second.begin). Only the ends of
+/// the intervals of doubles move; the cones stay, so nothing that is decided exactly depends on it.
+Propagation::Trim Propagation::trim(Wave& first, Wave& second, double length) {
+  const double low = second.begin, high = std::min(first.end, second.end);
+  if (!(low < high)) return Trim::none;
+  const Profile a0 = profile(first, low, length), b0 = profile(second, low, length);
+  const Profile a1 = profile(first, high, length), b1 = profile(second, high, length);
+  const double error = (first.weight_error + first.image_error) + (second.weight_error + second.image_error) +
+                       kDistanceError * (a0.distance + b0.distance + a1.distance + b1.distance);
+  const double g0 = b0.distance - a0.distance, g1 = b1.distance - a1.distance;
+  if (std::fabs(g0) <= error || std::fabs(g1) <= error) return Trim::none;
+  const double disc = 4 * (first.image_error + second.image_error) / length;
+  const bool first_seen = low >= first.begin + first.begin_slack && high <= first.end - first.end_slack;
+  const bool second_seen = low >= second.begin + second.begin_slack && high <= second.end - second.end_slack;
+  if ((g0 > 0) == (g1 > 0)) {
+    // The difference has at most one critical point: it keeps its sign unless it dips in between.
+    const double slope0 = b0.slope - a0.slope, slope1 = b1.slope - a1.slope;
+    const double slope_error = disc * (1 / a0.reach + 1 / b0.reach + 1 / a1.reach + 1 / b1.reach) + 16 * kUnit;
+    if (g0 > 0) {
+      if (!(slope0 > slope_error || slope1 < -slope_error)) return Trim::none;
+      const double seen = std::min(high, first.end - first.end_slack);
+      if (low < first.begin + first.begin_slack) return Trim::none;
+      if (second.end <= seen) return Trim::drop_second;
+      if (seen > second.begin + second.begin_slack) {
+        second.begin = seen;
+        second.begin_slack = 0;
+        second.begin_trimmed = true;
+      }
+      return Trim::none;
+    }
+    if (!(slope0 < -slope_error || slope1 > slope_error)) return Trim::none;
+    if (first.end > second.end - second.end_slack) return Trim::none;
+    const double seen = second.begin + second.begin_slack;
+    if (first.begin >= seen) return Trim::drop_first;
+    if (seen < first.end - first.end_slack) {
+      first.end = seen;
+      first.end_slack = 0;
+      first.end_trimmed = true;
+    }
+    return Trim::none;
+  }
+  if (g0 < 0 || !first_seen || !second_seen) return Trim::none;
+  // One root: first is shorter before it, second after it.
+  double left = low, right = high, gl = g0, gr = g1;
+  for (int i = 0; i < 3; ++i) {
+    const double x = left + (right - left) * (gl / (gl - gr));
+    if (!(x > left && x < right)) break;
+    const double width = right - left;
+    for (const double probe : {x - width * 0x1p-10, x + width * 0x1p-10}) {
+      if (!(probe > left && probe < right)) continue;
+      const double g = profile(second, probe, length).distance - profile(first, probe, length).distance;
+      if (g > error) {
+        left = probe;
+        gl = g;
+      } else if (g < -error) {
+        right = probe;
+        gr = g;
+      }
+    }
+  }
+  if (left > low) {
+    second.begin = left;
+    second.begin_slack = 0;
+    second.begin_trimmed = true;
+  }
+  if (right < high || right < first.end) {
+    first.end = right;
+    first.end_slack = 0;
+    first.end_trimmed = true;
+  }
+  return Trim::none;
+}
+
+void Propagation::cross_face(HalfedgeId h) {
+  const Frame& frame = frames_[h];
+  const HalfedgeId left = mesh_.twin(Mesh::prev(h)), right = mesh_.twin(Mesh::next(h));
+  const VertexId apex = mesh_.apex(h);
+  ApexSight& sight = sights_[h];
+  crossings_.clear();
+  trim_list(h);
+  for (const std::uint32_t w : kept_) {
+    const Wave& wave = waves_[w];
+    ++field_.windows_propagated;
+    const double dx = wave.image.x - frame.u, dy = wave.image.y - frame.y;
+    const double d = wave.weight + frame.length * std::sqrt(dx * dx + dy * dy);
+    const Sight where = locate_apex(wave, h, frame);
+    crossings_.push_back({w, where, d});
+    if (where == Sight::beyond_0 || where == Sight::beyond_1) continue;
+    const double error = (wave.image_error + wave.weight_error) + kDistanceError * d;
+    if (d + error < sight.upper) {
+      const double t = wave.image.y / dy;  // image -> apex crosses the side at this fraction: dy < 0
+      const double x = wave.image.x - dx * t;
+      const double disc = wave.image_error / frame.length + kFrameError * norm1(frame.u, frame.y);
+      const double slack = 4 * disc * (1 + norm1(dx, dy) / -dy);
+      sight = {d + error, x - slack, x + slack};
+    }
+    relax(apex, {wave.window, field_.windows[wave.window].root, kNone, d, error, wave.image});  // may add waves: last use of `wave`
+  }
+  for (const Crossing& c : crossings_) {
+    const Wave& wave = waves_[c.wave];
+    const bool longer = c.apex_distance * (1 - kDistanceError) - (wave.image_error + wave.weight_error) > sight.upper;
+    const double begin = wave.begin, end = wave.end;
+    const Sight where = c.sight;
+    if (left != kNone && where != Sight::beyond_0 && where != Sight::on_ray_0) {
+      if (longer && begin >= sight.high) {
+        ++filtered_prunings_;
+      } else {
+        make_child<true>(c.wave, where, h, left);
+      }
+    }
+    if (right != kNone && where != Sight::beyond_1 && where != Sight::on_ray_1) {
+      if (longer && end <= sight.low) {
+        ++filtered_prunings_;
+      } else {
+        make_child<false>(c.wave, where, h, right);
+      }
+    }
+  }
+  for (const std::uint32_t w : kept_) {
+    waves_[w].next = free_wave_;
+    free_wave_ = w;
+  }
+  for (const HalfedgeId target : {left, right})
+    if (target != kNone && (settled_[mesh_.origin(target)] != 0 || settled_[mesh_.target(target)] != 0)) push(target);
+}
+
+namespace {
+
+/// Where the ray from the image through p meets the side [0, 1], with a margin that covers the error `disc` of both points.
+struct Landing {
+  double at, margin;
+};
+Landing land(const predicates::Complex<double>& image, const predicates::Complex<double>& p, double disc) {
+  const double rise = p.y - image.y;
+  const double safe = rise - 4 * disc;
+  if (!(safe > 0)) return {0.5, 2};
+  const double run = p.x - image.x;
+  const double at = image.x - run * image.y / rise;
+  return {at, 4 * (disc + kUnit * std::fabs(at)) * (1 + (std::fabs(run) + std::fabs(at - image.x)) / safe)};
+}
+
+}  // namespace
+
+template <bool kLeft>
+void Propagation::make_child(std::uint32_t parent, Sight sight, HalfedgeId h, HalfedgeId target) {
+  const Wave& wave = waves_[parent];
+  const Frame& side = frames_[kLeft ? Mesh::prev(h) : Mesh::next(h)];
+  const auto cross = [&](const Image& z) { return kLeft ? predicates::cross_left(z, side) : predicates::cross_right(z, side); };
+  const bool at_apex = kLeft ? sight == Sight::inside || sight == Sight::on_ray_1 : sight == Sight::inside || sight == Sight::on_ray_0;
+  const double length = side.length, parent_length = frames_[h].length;
+  Wave child;
+  child.image = cross(wave.image);
+  const double reach = (norm1(wave.image.x, wave.image.y) + 1) * parent_length + (norm1(child.image.x, child.image.y) + 1) * length;
+  const double image_error = wave.image_error + kStepError * reach;
+  const double disc = image_error / length;
+  child.begin = 0;
+  child.end = 1;
+  child.begin_slack = child.end_slack = 0;
+  child.begin_trimmed = child.end_trimmed = false;
+  if (!kLeft && at_apex) {
+    child.cone0 = {0, 0};
+  } else if (kLeft && wave.cone0.x == 0 && wave.cone0.y == 0) {
+    child.cone0 = {0, 0};
+  } else {
+    child.cone0 = cross(wave.cone0);
+    if (!wave.begin_trimmed) {
+      const Landing l = land(child.image, child.cone0, disc);
+      child.begin = std::max(0.0, l.at - l.margin);
+      child.begin_slack = static_cast<float>(2 * l.margin * (1 + 0x1p-20));
+    }
+  }
+  if (kLeft && at_apex) {
+    child.cone1 = {1, 0};
+  } else if (!kLeft && wave.cone1.x == 1 && wave.cone1.y == 0) {
+    child.cone1 = {1, 0};
+  } else {
+    child.cone1 = cross(wave.cone1);
+    if (!wave.end_trimmed) {
+      const Landing l = land(child.image, child.cone1, disc);
+      child.end = std::min(1.0, l.at + l.margin);
+      child.end_slack = static_cast<float>(2 * l.margin * (1 + 0x1p-20));
+    }
+  }
+  if (wave.begin_trimmed) {
+    const Landing l = land(child.image, cross({wave.begin, 0}), disc);
+    const double begin = l.at - l.margin;
+    if (begin > child.begin) {
+      const Landing seen = wave.begin_slack == 0 ? l : land(child.image, cross({wave.begin + wave.begin_slack, 0}), disc);
+      child.begin = begin;
+      child.begin_slack = static_cast<float>((seen.at + seen.margin - begin) * (1 + 0x1p-20));
+      child.begin_trimmed = true;
+    }
+  }
+  if (wave.end_trimmed) {
+    const Landing l = land(child.image, cross({wave.end, 0}), disc);
+    const double end = l.at + l.margin;
+    if (end < child.end) {
+      const Landing seen = wave.end_slack == 0 ? l : land(child.image, cross({wave.end - wave.end_slack, 0}), disc);
+      child.end = end;
+      child.end_slack = static_cast<float>((end - seen.at + seen.margin) * (1 + 0x1p-20));
+      child.end_trimmed = true;
+    }
+  }
+  if (child.begin > child.end) {
+    ++filtered_prunings_;
+    return;
+  }
+  // Xin and Wang's filter: a vertex of the face from which every point of the child is certainly nearer.
+  const double y2 = child.image.y * child.image.y;
+  const double to_begin = child.image.x - child.begin, to_end = child.image.x - child.end;
+  const double at_begin = wave.weight + length * std::sqrt(to_begin * to_begin + y2);
+  const double at_end = wave.weight + length * std::sqrt(to_end * to_end + y2);
+  const double error = image_error + wave.weight_error;
+  const double begin_low = at_begin * (1 - kDistanceError) - error, end_low = at_end * (1 - kDistanceError) - error;
+  const VertexId origin = mesh_.origin(target), end = mesh_.target(target), third = kLeft ? mesh_.target(h) : mesh_.origin(h);
+  const double third_x = side.v - (kLeft ? child.begin : child.end);
+  const double from_third = upper_[third] + length * std::sqrt(third_x * third_x + side.y * side.y);
+  if (upper_[origin] + child.end * length < end_low || upper_[end] + (1 - child.begin) * length < begin_low ||
+      from_third * (1 + kDistanceError) < (kLeft ? begin_low : end_low)) {
+    ++filtered_prunings_;
+    return;
+  }
+  child.weight = wave.weight;
+  child.weight_error = wave.weight_error;
+  child.image_error = static_cast<float>(image_error * (1 + 0x1p-20));
+  child.window = new_window(wave.window, target, field_.windows[wave.window].root, at_apex);
+  const std::uint32_t w = new_wave();
+  waves_[w] = child;
+  append(target, w);
+}
+
+std::uint32_t Propagation::new_wave() {
+  if (free_wave_ == kNone) {
+    waves_.emplace_back();
+    return static_cast<std::uint32_t>(waves_.size() - 1);
+  }
+  const std::uint32_t w = free_wave_;
+  free_wave_ = waves_[w].next;
+  return w;
+}
+
+WindowId Propagation::new_window(WindowId parent, HalfedgeId h, VertexId root, bool apex_in_cone) {
+  const auto id = static_cast<WindowId>(field_.windows.size());
+  field_.windows.push_back({parent, h | (apex_in_cone ? WindowRecord::kApexInCone : 0u), root, field_.first_window[h]});
+  field_.first_window[h] = id;
+  return id;
+}
+
+void Propagation::append(HalfedgeId h, std::uint32_t wave) {
+  waves_[wave].next = kNone;
+  List& list = waiting_[h];
+  if (list.first == kNone) {
+    list.first = list.last = wave;
+  } else {
+    waves_[list.last].next = wave;
+    list.last = wave;
+  }
+}
+
+bool propagate(const Mesh& mesh, const std::vector<predicates::EdgeFrame<double>>& frames, std::span<const WaveStart> starts,
+               const std::vector<VertexKind>& kinds, DistanceField& field, predicates::Decisions& decisions, PropagationPoll poll,
+               void* user) {
+  return Propagation(mesh, frames, kinds, field, decisions).run(starts, poll, user);
+}
+
+}  // namespace gvd::kernel

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <queue>
+
+#include "gvd/kernel/distance_field.hpp"
+
+namespace gvd::kernel {
+
+/// The state of one run of `propagate`. Error constants: docs/error-bounds.md#propagation.
+class Propagation {
+ public:
+  Propagation(const Mesh& mesh, const std::vector<predicates::EdgeFrame<double>>& frames, const std::vector<VertexKind>& kinds,
+              DistanceField& field, predicates::Decisions& decisions);
+  bool run(std::span<const WaveStart> starts, PropagationPoll poll, void* user);
+
+ private:
+  using Image = predicates::Complex<double>;
+  using Frame = predicates::EdgeFrame<double>;
+
+  /// A window while it waits to cross the face: its numbers in the frame of its half-edge.
+  struct Wave {
+    Image image, cone0, cone1;
+    double begin, end;     // an interval of [0, 1] that contains what is seen and may be shortest
+    double weight;         // D at the root, mesh units
+    float weight_error;    // of the weight, mesh units
+    float image_error;     // radius of a disc about image, cone0 and cone1 alike, mesh units
+    float begin_slack, end_slack;      // [begin + begin_slack, end - end_slack] is certainly seen
+    bool begin_trimmed = false, end_trimmed = false;  // beyond it another window is certainly shorter
+    WindowId window;
+    std::uint32_t next;
+  };
+  /// The best proved sight of the apex over a half-edge: windows beside that ray and longer cannot cross it.
+  struct ApexSight {
+    double upper = std::numeric_limits<double>::infinity();  // certain upper bound of the distance
+    double low = 0, high = 0;                                // where the ray crosses the half-edge
+  };
+  struct List {
+    std::uint32_t first = kNone, last = kNone;
+  };
+  /// Where the apex lies: seen, or beside the cone.
+  enum class Sight : std::uint8_t { inside, on_ray_0, on_ray_1, beyond_0, beyond_1 };
+  struct Crossing {
+    std::uint32_t wave;
+    Sight sight;
+    double apex_distance;
+  };
+
+  void settle(VertexId v);
+  void relax(VertexId v, const Candidate& candidate);
+  void emit(VertexId v, HalfedgeId outgoing);
+  void emit_all(VertexId v);
+  void emit_shadow(VertexId v, const Candidate& arrival);
+  void push_lists_at(VertexId v);
+  void push(HalfedgeId h);
+  void drain();
+  void cross_face(HalfedgeId h);
+  void trim_list(HalfedgeId h);
+  enum class Trim : std::uint8_t { none, drop_first, drop_second };
+  Trim trim(Wave& first, Wave& second, double length);
+  Sight locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame);
+  Sight decide_apex(const Wave& wave, HalfedgeId h);
+  template <bool kLeft>
+  void make_child(std::uint32_t wave, Sight sight, HalfedgeId h, HalfedgeId target);
+  std::uint32_t new_wave();
+  WindowId new_window(WindowId parent, HalfedgeId h, VertexId root, bool apex_in_cone);
+  void append(HalfedgeId h, std::uint32_t wave);
+
+  const Mesh& mesh_;
+  const std::vector<Frame>& frames_;
+  const std::vector<VertexKind>& kinds_;
+  DistanceField& field_;
+  predicates::Decisions& decisions_;
+
+  std::vector<Wave> waves_;
+  std::uint32_t free_wave_ = kNone;
+  std::vector<List> waiting_;
+  std::vector<std::uint8_t> queued_;
+  std::vector<HalfedgeId> fifo_;
+  std::size_t fifo_head_ = 0;
+  std::vector<ApexSight> sights_;
+  std::vector<double> upper_;                 // per vertex: certain upper bound of D
+  std::vector<std::uint8_t> settled_;
+  std::vector<double> emitted_weight_, emitted_error_;
+  std::vector<WindowId> emitted_;             // per outgoing half-edge: the first window sent over the opposite side
+  std::vector<Crossing> crossings_;
+  std::vector<std::uint32_t> list_, kept_;    // of the half-edge at hand
+  struct Entry {
+    double distance;
+    VertexId vertex;
+    bool operator>(const Entry& other) const noexcept {
+      return distance != other.distance ? distance > other.distance : vertex > other.vertex;
+    }
+  };
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
+  bool superseded_ = false;
+  std::uint64_t filtered_orientations_ = 0, filtered_prunings_ = 0;
+};
+
+}  // namespace gvd::kernel
