@@ -1,38 +1,152 @@
-#include <cmath>
+#include "gvd/kernel/frames.hpp"
 
-#include "gvd/kernel/distance_field.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "gvd/robust/ball.hpp"
+#include "gvd/robust/rational.hpp"
 
 namespace gvd::kernel {
 namespace {
 
-struct Vector {
-  double x, y, z;
-};
-Vector between(const Point& p, const Point& q) { return {q[0] - p[0], q[1] - p[1], q[2] - p[2]}; }
-double dot(const Vector& p, const Vector& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-Vector cross(const Vector& p, const Vector& q) {
-  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+using robust::DoubleDouble;
+using robust::Mpfr;
+
+/// One formula for every number type: sides ab, bc, ca of a face, as vectors.
+template <class T>
+T dot(const std::array<T, 3>& p, const std::array<T, 3>& q) {
+  return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
 }
+template <class T>
+std::array<T, 3> cross(const std::array<T, 3>& p, const std::array<T, 3>& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
+template <class T>
+std::array<predicates::EdgeFrame<T>, 3> face_frames(const std::array<T, 3>& ab, const std::array<T, 3>& bc, const std::array<T, 3>& ca) {
+  using std::sqrt;
+  const T dot_a = -dot(ab, ca), dot_b = -dot(bc, ab), dot_c = -dot(ca, bc);
+  const T ll_ab = dot(ab, ab), ll_bc = dot(bc, bc), ll_ca = dot(ca, ca);
+  // The two shortest sides give the cross product its best relative error.
+  const auto normal = !(ll_ab < ll_bc) && !(ll_ab < ll_ca) ? cross(bc, ca) : !(ll_bc < ll_ca) ? cross(ca, ab) : cross(ab, bc);
+  const T area2 = sqrt(dot(normal, normal));
+  return {{{dot_a / ll_ab, dot_b / ll_ab, area2 / ll_ab, sqrt(ll_ab)},
+           {dot_b / ll_bc, dot_c / ll_bc, area2 / ll_bc, sqrt(ll_bc)},
+           {dot_c / ll_ca, dot_a / ll_ca, area2 / ll_ca, sqrt(ll_ca)}}};
+}
+
+/// Below this the squares and products of a frame may lose bits to underflow.
+constexpr double kLeastSide = 0x1p-240;
+
+mpq_class scaled(const mpq_class& x, int k) { return x * robust::power_of_two(k); }
 
 }  // namespace
 
-std::vector<predicates::EdgeFrame<double>> make_frames(const Mesh& mesh) {
-  std::vector<predicates::EdgeFrame<double>> frames(mesh.halfedge_count());
-  for (HalfedgeId h = 0; h < mesh.halfedge_count(); h += 3) {
-    const Point& a = mesh.point(mesh.origin(h));
-    const Point& b = mesh.point(mesh.origin(h + 1));
-    const Point& c = mesh.point(mesh.origin(h + 2));
-    const Vector ab = between(a, b), bc = between(b, c), ca = between(c, a);
-    const double dot_a = -dot(ab, ca), dot_b = -dot(bc, ab), dot_c = -dot(ca, bc);
-    const double ll_ab = dot(ab, ab), ll_bc = dot(bc, bc), ll_ca = dot(ca, ca);
-    // The two shortest sides give the cross product its best relative error.
-    const Vector normal = ll_ab >= ll_bc && ll_ab >= ll_ca ? cross(bc, ca) : ll_bc >= ll_ca ? cross(ca, ab) : cross(ab, bc);
-    const double area2 = std::sqrt(dot(normal, normal));
-    frames[h] = {dot_a / ll_ab, dot_b / ll_ab, area2 / ll_ab, std::sqrt(ll_ab)};
-    frames[h + 1] = {dot_b / ll_bc, dot_c / ll_bc, area2 / ll_bc, std::sqrt(ll_bc)};
-    frames[h + 2] = {dot_c / ll_ca, dot_a / ll_ca, area2 / ll_ca, std::sqrt(ll_ca)};
+template <class T>
+std::array<T, 3> Frames::side(FaceId f, int k, int bits) const {
+  const VertexId a = mesh_.origin(3 * f + static_cast<unsigned>(k)), b = mesh_.target(3 * f + static_cast<unsigned>(k));
+  std::array<T, 3> result;
+  if (mesh_.is_representable(a) && mesh_.is_representable(b) && !std::is_same_v<T, Mpfr>) {
+    const Point &p = mesh_.point(a), &q = mesh_.point(b);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if constexpr (std::is_same_v<T, double>) {
+        result[i] = std::ldexp(q[i] - p[i], -scale_);
+      } else if constexpr (std::is_same_v<T, DoubleDouble>) {
+        const DoubleDouble d = robust::two_sum(q[i], -p[i]);
+        result[i] = {std::ldexp(d.hi, -scale_), std::ldexp(d.lo, -scale_)};
+      }
+    }
+    return result;
   }
-  return frames;
+  const ExactPoint p = mesh_.exact_point(a), q = mesh_.exact_point(b);
+  for (std::size_t i = 0; i < 3; ++i) result[i] = robust::from<robust::Ball<T>>(scaled(q[i] - p[i], -scale_), bits).mid();
+  return result;
+}
+
+template <class T>
+std::array<predicates::EdgeFrame<T>, 3> Frames::make(FaceId f, int bits) const {
+  return face_frames(side<T>(f, 0, bits), side<T>(f, 1, bits), side<T>(f, 2, bits));
+}
+
+Frames::Frames(const Mesh& mesh) : mesh_(mesh) {
+  double largest = 0;
+  for (HalfedgeId h = 0; h < mesh.halfedge_count(); ++h)
+    for (std::size_t i = 0; i < 3; ++i)
+      largest = std::max(largest, std::fabs(mesh.point(mesh.target(h))[i] - mesh.point(mesh.origin(h))[i]));
+  scale_ = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+  const double factor_a = std::ldexp(1.0, -scale_ / 2), factor_b = std::ldexp(1.0, -scale_ - (-scale_ / 2));
+  double_.resize(mesh.halfedge_count());
+  for (FaceId f = 0; f < mesh.face_count(); ++f) {
+    std::array<std::array<double, 3>, 3> sides;
+    bool plain = true;
+    for (unsigned k = 0; k < 3; ++k) plain = plain && mesh.is_representable(mesh.origin(3 * f + k));
+    if (plain) {
+      for (unsigned k = 0; k < 3; ++k) {
+        const Point &p = mesh.point(mesh.origin(3 * f + k)), &q = mesh.point(mesh.target(3 * f + k));
+        for (std::size_t i = 0; i < 3; ++i) sides[k][i] = (q[i] - p[i]) * factor_a * factor_b;
+      }
+    } else {
+      for (unsigned k = 0; k < 3; ++k) sides[k] = side<double>(f, static_cast<int>(k), 53);
+    }
+    const auto frames = face_frames(sides[0], sides[1], sides[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      double_[3 * f + k] = frames[k];
+      if (!(frames[k].length > kLeastSide && frames[k].y > 0x1p-240)) underflow_ = true;
+    }
+  }
+}
+
+const predicates::EdgeFrame<DoubleDouble>& Frames::in_double_double(HalfedgeId h) const {
+  std::call_once(allocate_, [&] {
+    state_ = std::make_unique<std::atomic<std::uint8_t>[]>(mesh_.face_count());
+    double_double_.resize(mesh_.halfedge_count());
+  });
+  const FaceId f = Mesh::face(h);
+  std::uint8_t state = state_[f].load(std::memory_order_acquire);
+  while (state != 2) {
+    if (state == 0 && state_[f].compare_exchange_strong(state, 1, std::memory_order_acq_rel)) {
+      const auto frames = make<DoubleDouble>(f, 106);
+      for (std::size_t k = 0; k < 3; ++k) double_double_[3 * f + k] = frames[k];
+      state_[f].store(2, std::memory_order_release);
+      break;
+    }
+    if (state == 1) std::this_thread::yield();
+    state = state_[f].load(std::memory_order_acquire);
+  }
+  return double_double_[h];
+}
+
+std::array<predicates::EdgeFrame<Mpfr>, 3> Frames::in_mpfr(FaceId f, int bits) const { return make<Mpfr>(f, bits + 8); }
+
+ExactFace Frames::exact(FaceId f) const {
+  std::array<ExactPoint, 3> side;
+  for (unsigned k = 0; k < 3; ++k) {
+    const ExactPoint p = mesh_.exact_point(mesh_.origin(3 * f + k)), q = mesh_.exact_point(mesh_.target(3 * f + k));
+    for (std::size_t i = 0; i < 3; ++i) side[k][i] = scaled(q[i] - p[i], -scale_);
+  }
+  ExactFace face;
+  for (std::size_t k = 0; k < 3; ++k) {
+    face.dot[k] = -dot(side[k], side[(k + 2) % 3]);
+    face.squared[k] = dot(side[k], side[k]);
+  }
+  face.radicand = face.squared[0] * face.squared[2] - face.dot[0] * face.dot[0];
+  return face;
+}
+
+std::uint32_t Frames::square_class(FaceId f) const {
+  const std::scoped_lock lock(classes_.mutex);
+  if (classes_.of_face.empty()) classes_.of_face.assign(mesh_.face_count(), kNone);
+  if (classes_.of_face[f] != kNone) return classes_.of_face[f];
+  const mpq_class radicand = exact(f).radicand;
+  const std::uint64_t signature = robust::square_class_signature(radicand);
+  const auto [first, last] = classes_.by_signature.equal_range(signature);
+  for (auto it = first; it != last; ++it)
+    if (robust::same_square_class(classes_.representative[it->second], radicand)) return classes_.of_face[f] = it->second;
+  const auto id = static_cast<std::uint32_t>(classes_.representative.size());
+  classes_.representative.push_back(radicand);
+  classes_.by_signature.emplace(signature, id);
+  return classes_.of_face[f] = id;
 }
 
 }  // namespace gvd::kernel

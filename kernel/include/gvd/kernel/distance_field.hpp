@@ -54,8 +54,6 @@ struct WaveStart {
 /// Polled now and then with the number of settled vertices; return false to stop.
 using PropagationPoll = bool (*)(void* user, std::uint64_t settled, std::uint64_t bytes);
 
-/// Frames of all half-edges in double precision. Error: docs/error-bounds.md#frames.
-std::vector<predicates::EdgeFrame<double>> make_frames(const Mesh& mesh);
 
 /// Propagates the waves over the whole mesh (vertex-oriented triangle propagation, Qin et al. 2016, with certain drops only).
 /// Returns false if `poll` stopped it.

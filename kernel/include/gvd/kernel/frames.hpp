@@ -1,0 +1,68 @@
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <vector>
+
+#include "gvd/kernel/mesh.hpp"
+#include "gvd/predicates/frame.hpp"
+#include "gvd/robust/double_double.hpp"
+#include "gvd/robust/mpfr_float.hpp"
+
+namespace gvd::kernel {
+
+/// A face in exact arithmetic, in scaled units: dot products at the corners, squared sides, and N (four times the squared area).
+struct ExactFace {
+  std::array<mpq_class, 3> dot;      ///< at corner k
+  std::array<mpq_class, 3> squared;  ///< of side k
+  mpq_class radicand;
+};
+
+/// The frames of all half-edges of a mesh in every number type. All lengths are in *scaled units*: mesh units times 2^-scale(), chosen so that
+/// the largest coordinate difference lies in [1, 2). Thread-safe; what is costly is made on demand.
+class Frames {
+ public:
+  explicit Frames(const Mesh& mesh);
+
+  int scale() const noexcept { return scale_; }
+  const std::vector<predicates::EdgeFrame<double>>& in_double() const noexcept { return double_; }
+  const predicates::EdgeFrame<double>& operator()(HalfedgeId h) const noexcept { return double_[h]; }
+  /// Relative error of the apex as a disc, and of the length: docs/error-bounds.md#frames. Cached.
+  const predicates::EdgeFrame<robust::DoubleDouble>& in_double_double(HalfedgeId h) const;
+  /// Cost: some hundred MPFR operations; not cached.
+  std::array<predicates::EdgeFrame<robust::Mpfr>, 3> in_mpfr(FaceId f, int bits) const;
+  ExactFace exact(FaceId f) const;
+  /// The square class of the face's radicand: equal numbers if and only if the radicands differ by a rational square. Cached.
+  std::uint32_t square_class(FaceId f) const;
+  const Mesh& mesh() const noexcept { return mesh_; }
+  /// Faces so small against the mesh that doubles underflow; their decisions cannot be trusted to the filter.
+  bool has_underflow() const noexcept { return underflow_; }
+
+ private:
+  template <class T>
+  std::array<predicates::EdgeFrame<T>, 3> make(FaceId f, int bits) const;
+  template <class T>
+  std::array<T, 3> side(FaceId f, int k, int bits) const;
+
+  const Mesh& mesh_;
+  int scale_ = 0;
+  bool underflow_ = false;
+  std::vector<predicates::EdgeFrame<double>> double_;
+  mutable std::vector<predicates::EdgeFrame<robust::DoubleDouble>> double_double_;
+  mutable std::unique_ptr<std::atomic<std::uint8_t>[]> state_;  // per face: 0 empty, 1 being made, 2 ready
+  mutable std::once_flag allocate_;
+  struct Classes {
+    std::mutex mutex;
+    std::vector<std::uint32_t> of_face;
+    std::vector<mpq_class> representative;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> by_signature;
+  };
+  mutable Classes classes_;
+};
+
+}  // namespace gvd::kernel

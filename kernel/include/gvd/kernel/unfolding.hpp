@@ -1,0 +1,34 @@
+#pragma once
+
+#include <gmpxx.h>
+
+#include <optional>
+
+#include "gvd/kernel/distance_field.hpp"
+#include "gvd/kernel/frames.hpp"
+#include "gvd/predicates/strip.hpp"
+
+namespace gvd::kernel {
+
+/// The strip of a window, from its parents. Cost: O(faces crossed).
+predicates::Strip strip_of(const Mesh& mesh, const DistanceField& field, WindowId window);
+
+predicates::Unfolding<double> unfold_double(const Frames& frames, const predicates::Strip& strip);
+predicates::Unfolding<robust::DoubleDouble> unfold_double_double(const Frames& frames, const predicates::Strip& strip);
+predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits);
+
+/// A point x + i y sqrt(N) of a frame, N the radicand that the strip has in common.
+struct QuadraticPoint {
+  mpq_class x, y;
+};
+/// A strip all of whose faces, and the face it enters, have radicands of one square class: everything is rational over sqrt(radicand).
+struct ExactUnfolding {
+  mpq_class radicand;
+  QuadraticPoint image, cone0, cone1;
+};
+/// Empty if the faces are of several square classes. `last`: the half-edge over which the window comes in.
+std::optional<ExactUnfolding> unfold_exact(const Frames& frames, const predicates::Strip& strip, HalfedgeId last);
+/// The apex of the frame of h over the same root. Pre: the face is of the class of `radicand`.
+QuadraticPoint exact_apex(const Frames& frames, HalfedgeId h, const mpq_class& radicand);
+
+}  // namespace gvd::kernel
