@@ -2,8 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+
+#include "gvd/kernel/unfolding.hpp"
+#include "gvd/predicates/landing.hpp"
+#include "gvd/predicates/orientation.hpp"
 
 namespace gvd::kernel {
+
+using predicates::Complex;
+using predicates::EdgeFrame;
+
 namespace {
 
 constexpr double kUnit = 0x1p-53;
@@ -17,13 +27,14 @@ double norm1(double x, double y) { return std::fabs(x) + std::fabs(y); }
 
 }  // namespace
 
-Propagation::Propagation(const Mesh& mesh, const std::vector<Frame>& frames, const std::vector<VertexKind>& kinds,
-                         DistanceField& field, predicates::Decisions& decisions)
-    : mesh_(mesh), frames_(frames), kinds_(kinds), field_(field), decisions_(decisions) {
-  const std::size_t n = mesh.vertex_count(), m = mesh.halfedge_count();
+Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& kinds, DistanceField& field,
+                         predicates::Decisions& decisions)
+    : mesh_(frames.mesh()), all_frames_(frames), frames_(frames.in_double()), kinds_(kinds), field_(field), decisions_(decisions) {
+  const std::size_t n = mesh_.vertex_count(), m = mesh_.halfedge_count();
   const double infinity = std::numeric_limits<double>::infinity();
   field_.first_window.assign(m, kNone);
   field_.first_candidate.assign(n, kNone);
+  field_.corner_sees_face.assign(m, 0);
   field_.distance.assign(n, infinity);
   field_.error.assign(n, 0);
   waiting_.resize(m);
@@ -147,6 +158,7 @@ void Propagation::emit_all(VertexId v) {
 }
 
 void Propagation::emit(VertexId v, HalfedgeId outgoing) {
+  field_.corner_sees_face[outgoing] = 1;
   if (emitted_[outgoing] != kNone) return;
   const HalfedgeId opposite = Mesh::next(outgoing);
   const HalfedgeId target = mesh_.twin(opposite);
@@ -305,8 +317,63 @@ Propagation::Sight Propagation::locate_apex(const Wave& wave, HalfedgeId h, cons
   return decide_apex(wave, h);
 }
 
-Propagation::Sight Propagation::decide_apex(const Wave&, HalfedgeId) {
-  predicates::count(decisions_, predicates::Predicate::window_orientation, robust::Stage::undecided);
+namespace {
+
+/// From the sides of the apex with respect to the two boundary rays.
+template <class Sight>
+std::optional<Sight> sight_of(robust::MaybeSign side0, robust::MaybeSign side1) {
+  using robust::Sign;
+  if (side0 == Sign::positive) return Sight::beyond_0;
+  if (side1 == Sign::negative) return Sight::beyond_1;
+  if (!side0 || !side1) return std::nullopt;
+  if (side0 == Sign::zero) return Sight::on_ray_0;
+  if (side1 == Sign::zero) return Sight::on_ray_1;
+  return Sight::inside;
+}
+
+template <class T>
+Complex<robust::Ball<T>> as_balls(const predicates::Disc<T>& z) {
+  return {predicates::ball_x(z), predicates::ball_y(z)};
+}
+
+template <class Sight, class T>
+std::optional<Sight> sight_in(const predicates::Unfolding<T>& at, const EdgeFrame<T>& frame, double unit) {
+  const double error = predicates::kUnfoldingStep * unit * predicates::rough_size(Complex<T>{frame.u, frame.y});
+  const Complex<robust::Ball<T>> apex{{frame.u, error}, {frame.y, error}};
+  const auto image = as_balls(at.image);
+  return sight_of<Sight>(maybe_sign(predicates::orientation(image, as_balls(at.cone0), apex)),
+                         maybe_sign(predicates::orientation(image, as_balls(at.cone1), apex)));
+}
+
+robust::Sign exact_side(const QuadraticPoint& image, const QuadraticPoint& cone, const QuadraticPoint& apex) {
+  const mpq_class side = (cone.x - image.x) * (apex.y - image.y) - (cone.y - image.y) * (apex.x - image.x);
+  return static_cast<robust::Sign>(sgn(side));  // over sqrt(radicand) > 0
+}
+
+}  // namespace
+
+/// The later stages for an apex that the filter could not place.
+Propagation::Sight Propagation::decide_apex(const Wave& wave, HalfedgeId h) {
+  const predicates::Strip strip = strip_of(mesh_, field_, wave.window);
+  const auto decided = [&](Sight sight, robust::Stage stage) {
+    predicates::count(decisions_, predicates::Predicate::window_orientation, stage);
+    return sight;
+  };
+  if (const auto s = sight_in<Sight>(unfold_double_double(all_frames_, strip), all_frames_.in_double_double(h),
+                                     predicates::unit<robust::DoubleDouble>(0)))
+    return decided(*s, robust::Stage::double_double);
+  if (const auto at = unfold_exact(all_frames_, strip, h)) {
+    const QuadraticPoint apex = exact_apex(all_frames_, h, at->radicand);
+    return decided(*sight_of<Sight>(exact_side(at->image, at->cone0, apex), exact_side(at->image, at->cone1, apex)), robust::Stage::algebra);
+  }
+  for (const int bits : {128, 256, 512, 1024}) {
+    const auto frame = all_frames_.in_mpfr(Mesh::face(h), bits)[h % 3];
+    if (const auto s = sight_in<Sight>(unfold_mpfr(all_frames_, strip, bits), frame, predicates::unit<robust::Mpfr>(bits)))
+      return decided(*s, robust::Stage::mpfr);
+  }
+  predicates::undecided(decisions_, predicates::Predicate::window_orientation,
+                        "vertex " + std::to_string(mesh_.apex(h)) + " against the cone of a window of vertex " +
+                            std::to_string(field_.windows[wave.window].root) + " over half-edge " + std::to_string(h));
   return Sight::inside;
 }
 
@@ -492,23 +559,6 @@ void Propagation::cross_face(HalfedgeId h) {
     if (target != kNone && (settled_[mesh_.origin(target)] != 0 || settled_[mesh_.target(target)] != 0)) push(target);
 }
 
-namespace {
-
-/// Where the ray from the image through p meets the side [0, 1], with a margin that covers the error `disc` of both points.
-struct Landing {
-  double at, margin;
-};
-Landing land(const predicates::Complex<double>& image, const predicates::Complex<double>& p, double disc) {
-  const double rise = p.y - image.y;
-  const double safe = rise - 4 * disc;
-  if (!(safe > 0)) return {0.5, 2};
-  const double run = p.x - image.x;
-  const double at = image.x - run * image.y / rise;
-  return {at, 4 * (disc + kUnit * std::fabs(at)) * (1 + (std::fabs(run) + std::fabs(at - image.x)) / safe)};
-}
-
-}  // namespace
-
 template <bool kLeft>
 void Propagation::make_child(std::uint32_t parent, Sight sight, HalfedgeId h, HalfedgeId target) {
   const Wave& wave = waves_[parent];
@@ -532,7 +582,7 @@ void Propagation::make_child(std::uint32_t parent, Sight sight, HalfedgeId h, Ha
   } else {
     child.cone0 = cross(wave.cone0);
     if (!wave.begin_trimmed) {
-      const Landing l = land(child.image, child.cone0, disc);
+      const predicates::Landing l = predicates::land(child.image, child.cone0, disc);
       child.begin = std::max(0.0, l.at - l.margin);
       child.begin_slack = static_cast<float>(2 * l.margin * (1 + 0x1p-20));
     }
@@ -544,26 +594,26 @@ void Propagation::make_child(std::uint32_t parent, Sight sight, HalfedgeId h, Ha
   } else {
     child.cone1 = cross(wave.cone1);
     if (!wave.end_trimmed) {
-      const Landing l = land(child.image, child.cone1, disc);
+      const predicates::Landing l = predicates::land(child.image, child.cone1, disc);
       child.end = std::min(1.0, l.at + l.margin);
       child.end_slack = static_cast<float>(2 * l.margin * (1 + 0x1p-20));
     }
   }
   if (wave.begin_trimmed) {
-    const Landing l = land(child.image, cross({wave.begin, 0}), disc);
+    const predicates::Landing l = predicates::land(child.image, cross({wave.begin, 0}), disc);
     const double begin = l.at - l.margin;
     if (begin > child.begin) {
-      const Landing seen = wave.begin_slack == 0 ? l : land(child.image, cross({wave.begin + wave.begin_slack, 0}), disc);
+      const predicates::Landing seen = wave.begin_slack == 0 ? l : predicates::land(child.image, cross({wave.begin + wave.begin_slack, 0}), disc);
       child.begin = begin;
       child.begin_slack = static_cast<float>((seen.at + seen.margin - begin) * (1 + 0x1p-20));
       child.begin_trimmed = true;
     }
   }
   if (wave.end_trimmed) {
-    const Landing l = land(child.image, cross({wave.end, 0}), disc);
+    const predicates::Landing l = predicates::land(child.image, cross({wave.end, 0}), disc);
     const double end = l.at + l.margin;
     if (end < child.end) {
-      const Landing seen = wave.end_slack == 0 ? l : land(child.image, cross({wave.end - wave.end_slack, 0}), disc);
+      const predicates::Landing seen = wave.end_slack == 0 ? l : predicates::land(child.image, cross({wave.end - wave.end_slack, 0}), disc);
       child.end = end;
       child.end_slack = static_cast<float>((end - seen.at + seen.margin) * (1 + 0x1p-20));
       child.end_trimmed = true;
@@ -625,10 +675,9 @@ void Propagation::append(HalfedgeId h, std::uint32_t wave) {
   }
 }
 
-bool propagate(const Mesh& mesh, const std::vector<predicates::EdgeFrame<double>>& frames, std::span<const WaveStart> starts,
-               const std::vector<VertexKind>& kinds, DistanceField& field, predicates::Decisions& decisions, PropagationPoll poll,
-               void* user) {
-  return Propagation(mesh, frames, kinds, field, decisions).run(starts, poll, user);
+bool propagate(const Frames& frames, std::span<const WaveStart> starts, const std::vector<VertexKind>& kinds, DistanceField& field,
+               predicates::Decisions& decisions, PropagationPoll poll, void* user) {
+  return Propagation(frames, kinds, field, decisions).run(starts, poll, user);
 }
 
 }  // namespace gvd::kernel

@@ -11,8 +11,7 @@ namespace gvd::kernel {
 /// The state of one run of `propagate`. Error constants: docs/error-bounds.md#propagation.
 class Propagation {
  public:
-  Propagation(const Mesh& mesh, const std::vector<predicates::EdgeFrame<double>>& frames, const std::vector<VertexKind>& kinds,
-              DistanceField& field, predicates::Decisions& decisions);
+  Propagation(const Frames& frames, const std::vector<VertexKind>& kinds, DistanceField& field, predicates::Decisions& decisions);
   bool run(std::span<const WaveStart> starts, PropagationPoll poll, void* user);
 
  private:
@@ -68,6 +67,7 @@ class Propagation {
   void append(HalfedgeId h, std::uint32_t wave);
 
   const Mesh& mesh_;
+  const Frames& all_frames_;
   const std::vector<Frame>& frames_;
   const std::vector<VertexKind>& kinds_;
   DistanceField& field_;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "gvd/kernel/frames.hpp"
 #include "gvd/kernel/ids.hpp"
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/kernel/vertex_kind.hpp"
@@ -35,12 +36,13 @@ struct Candidate {
   predicates::Complex<double> image;  ///< window: in the frame of its half-edge
 };
 
-/// What the propagation leaves: every window and every candidate that may be shortest somewhere.
+/// What the propagation leaves, in scaled units (kernel/frames.hpp): every window and every candidate that may be shortest somewhere.
 struct DistanceField {
   std::vector<WindowRecord> windows;
   std::vector<WindowId> first_window;        ///< per half-edge: windows that come in over it
   std::vector<Candidate> candidates;
   std::vector<std::uint32_t> first_candidate;  ///< per vertex
+  std::vector<std::uint8_t> corner_sees_face;  ///< per half-edge: its origin starts waves (source or relay) that may enter its face
   std::vector<double> distance, error;        ///< per vertex: |distance - D| <= error; infinity if unreachable
   std::uint64_t windows_propagated = 0;
 };
@@ -48,7 +50,7 @@ struct DistanceField {
 /// Where a wave starts.
 struct WaveStart {
   VertexId vertex;
-  double weight;
+  double weight;  ///< scaled units
 };
 
 /// Polled now and then with the number of settled vertices; return false to stop.
@@ -57,8 +59,7 @@ using PropagationPoll = bool (*)(void* user, std::uint64_t settled, std::uint64_
 
 /// Propagates the waves over the whole mesh (vertex-oriented triangle propagation, Qin et al. 2016, with certain drops only).
 /// Returns false if `poll` stopped it.
-bool propagate(const Mesh& mesh, const std::vector<predicates::EdgeFrame<double>>& frames, std::span<const WaveStart> starts,
-               const std::vector<VertexKind>& kinds, DistanceField& field, predicates::Decisions& decisions, PropagationPoll poll = nullptr,
-               void* user = nullptr);
+bool propagate(const Frames& frames, std::span<const WaveStart> starts, const std::vector<VertexKind>& kinds, DistanceField& field,
+               predicates::Decisions& decisions, PropagationPoll poll = nullptr, void* user = nullptr);
 
 }  // namespace gvd::kernel

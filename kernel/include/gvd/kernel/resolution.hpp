@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "gvd/kernel/distance_field.hpp"
+#include "gvd/kernel/frames.hpp"
+#include "gvd/kernel/ids.hpp"
+#include "gvd/kernel/unfolding.hpp"
+#include "gvd/predicates/predicate.hpp"
+#include "gvd/robust/ball.hpp"
+#include "gvd/robust/root_sum.hpp"
+
+namespace gvd::kernel {
+
+/// Sets of sources, each stored once.
+class LabelSets {
+ public:
+  LabelSetId intern(std::vector<SourceId> sorted);
+  LabelSetId merge(LabelSetId a, LabelSetId b);
+  const std::vector<SourceId>& operator[](LabelSetId id) const { return sets_[id]; }
+  const std::vector<std::vector<SourceId>>& all() const noexcept { return sets_; }
+
+ private:
+  std::vector<std::vector<SourceId>> sets_;
+  std::map<std::vector<SourceId>, LabelSetId> ids_;
+};
+
+/// One vertex at which waves start: the sources there of least weight.
+struct SourceVertex {
+  VertexId vertex;
+  double weight;  ///< mesh units
+  LabelSetId labels;
+};
+
+/// Decides, vertex by vertex in the order of distance, which candidates are nearest, what their labels are, and which double is nearest to the
+/// distance. All distances in scaled units except where mesh units are named. After `resolve` the const members may be called by several threads.
+class Resolution {
+ public:
+  Resolution(const Frames& frames, DistanceField& field, const std::vector<SourceVertex>& sources, LabelSets& sets);
+
+  /// Leaves only the winners (exactly tied) in the candidate lists of the field.
+  void resolve(predicates::Decisions& decisions);
+
+  bool is_reached(VertexId v) const noexcept { return labels_[v] != kNone; }
+  LabelSetId labels(VertexId v) const noexcept { return labels_[v]; }
+  const std::vector<LabelSetId>& labels() const noexcept { return labels_; }
+  /// Whether the window, whose apex v is, brings v its distance.
+  bool attains(WindowId window, VertexId v) const noexcept;
+  /// Whether the straight edge from `via` brings v its distance.
+  bool attains_along_edge(VertexId via, VertexId v) const noexcept;
+  bool is_source(VertexId v) const noexcept { return source_of_vertex_[v] != kNone; }
+  /// Whether a wave of its own sources starts at v and nothing reaches v sooner.
+  bool is_live_source(VertexId v) const noexcept { return attains_along_edge(v, v); }
+
+  const robust::Ball<robust::DoubleDouble>& distance(VertexId v) const noexcept { return distance_[v]; }
+  robust::Ball<robust::Mpfr> distance(VertexId v, int bits) const;
+  /// Empty if the paths cross faces of several square classes, or are too involved.
+  std::optional<robust::RootSum> exact_distance(VertexId v) const;
+
+  const Frames& frames() const noexcept { return frames_; }
+  const DistanceField& field() const noexcept { return field_; }
+  const std::vector<SourceVertex>& sources() const noexcept { return sources_; }
+  const LabelSets& sets() const noexcept { return sets_; }
+
+ private:
+  void resolve_vertex(VertexId v, predicates::Decisions& decisions);
+  std::vector<std::uint32_t> nearest_of(const std::vector<std::uint32_t>& list, VertexId v, predicates::Decisions& decisions) const;
+  robust::Ball<robust::DoubleDouble> length(const Candidate& c, VertexId v) const;
+  robust::Ball<robust::Mpfr> length(const Candidate& c, VertexId v, int bits) const;
+  std::optional<robust::RootSum> exact_length(const Candidate& c, VertexId v, int depth) const;
+  std::optional<robust::RootSum> exact_distance(VertexId v, int depth) const;
+  HalfedgeId edge_between(VertexId a, VertexId b) const;
+
+  const Frames& frames_;
+  DistanceField& field_;
+  const std::vector<SourceVertex>& sources_;
+  LabelSets& sets_;
+  std::vector<std::uint32_t> source_of_vertex_;
+  std::vector<LabelSetId> labels_;
+  std::vector<robust::Ball<robust::DoubleDouble>> distance_;
+};
+
+/// The double nearest to D(v) in mesh units, by stages; counted under `rounding`. Thread-safe.
+double rounded_distance(const Resolution& resolution, VertexId v, predicates::Decisions& decisions);
+
+}  // namespace gvd::kernel

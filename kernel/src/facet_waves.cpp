@@ -1,0 +1,293 @@
+#include "facet_waves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gvd/predicates/landing.hpp"
+#include "gvd/robust/rational.hpp"
+
+namespace gvd::kernel {
+
+using predicates::Complex;
+using predicates::Disc;
+using predicates::EdgeFrame;
+using predicates::PlanePoint;
+using predicates::Strip;
+using predicates::Unfolding;
+using robust::Ball;
+using robust::DoubleDouble;
+using robust::Exact;
+using robust::Mpfr;
+
+namespace {
+
+/// An exact weight of more roots than this is left to the MPFR stage.
+constexpr std::size_t kMostRoots = 4;
+
+/// A point of the frame of side k in the frame of side 0, whose apex is w.
+template <class NT>
+PlanePoint<NT> to_first_side(const PlanePoint<NT>& z, unsigned k, const PlanePoint<NT>& w) {
+  if (k == 0) return z;
+  const NT one(1.0);
+  if (k == 1) {  // 1 + z (w - 1)
+    const NT turn = w.x - one;
+    return {one + (z.x * turn - z.y * w.y), z.x * w.y + z.y * turn};
+  }
+  const NT x = one - z.x;  // w (1 - z)
+  return {x * w.x + z.y * w.y, x * w.y - z.y * w.x};
+}
+
+template <class T>
+PlanePoint<Ball<T>> balls(const Disc<T>& z) {
+  return {predicates::ball_x(z), predicates::ball_y(z)};
+}
+
+}  // namespace
+
+FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f)
+    : resolution_(resolution), field_(resolution.field()) {
+  const Frames& frames = resolution.frames();
+  const Mesh& mesh = frames.mesh();
+  face = f;
+  frame_ = make_frame<double>(frames(3 * f), predicates::unit<double>(0));
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    corner[k] = mesh.origin(3 * f + k);
+    corner_labels[k] = resolution.labels(corner[k]);
+    corner_is_flat[k] = kinds[corner[k]] == VertexKind::flat;
+  }
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    if (field_.corner_sees_face[3 * f + k] != 0) add_corner(k);
+    for (WindowId w = field_.first_window[3 * f + k]; w != kNone; w = field_.windows[w].next) add_window(w, k);
+  }
+}
+
+void FieldWaves::add_corner(std::uint8_t k) {
+  const Frames& frames = resolution_.frames();
+  FacetSite site;
+  site.corner = k;
+  site.root = corner[k];
+  site.labels = resolution_.labels(corner[k]);
+  for (std::uint8_t j = 0; j < 3; ++j)
+    site.attains_corner[j] = j == k || resolution_.attains_along_edge(corner[k], corner[j]);
+  predicates::Site<F> numbers;
+  if (k == 0) numbers.image = {F(0.0), F(0.0)};
+  if (k == 1) numbers.image = {F(1.0), F(0.0)};
+  if (k == 2) numbers.image = frame_.apex;
+  const double length_error = predicates::kUnfoldingStep * predicates::unit<double>(0) * frames(3 * face).length;
+  numbers.weight = narrowed(resolution_.distance(corner[k])) / F(frames(3 * face).length, length_error);
+  sites.push_back(site);
+  sites_.push_back(numbers);
+  strips_.emplace_back();
+}
+
+bool FieldWaves::certainly_dominated(const Unfolding<double>& at, double weight, double weight_error, std::uint8_t side) const {
+  const Frames& frames = resolution_.frames();
+  const EdgeFrame<double>& frame = frames(3 * face + side);
+  const predicates::Landing l0 = predicates::land(at.image.mid, at.cone0.mid, std::max(at.image.radius, at.cone0.radius));
+  const predicates::Landing l1 = predicates::land(at.image.mid, at.cone1.mid, std::max(at.image.radius, at.cone1.radius));
+  const double begin = std::max(0.0, l0.at - l0.margin), end = std::min(1.0, l1.at + l1.margin);
+  if (begin > end) return true;
+  const double y2 = at.image.mid.y * at.image.mid.y;
+  const auto low = [&](double x) {
+    const double dx = x - at.image.mid.x;
+    const double d = weight + frame.length * std::sqrt(dx * dx + y2);
+    return d * (1 - 0x1p-48) - weight_error - at.image.radius * frame.length * (1 + 0x1p-40);
+  };
+  const auto up = [&](VertexId v) { return (field_.distance[v] + field_.error[v]) * (1 + 0x1p-48); };
+  return up(corner[side]) + end * frame.length * (1 + 0x1p-48) < low(end) ||
+         up(corner[(side + 1) % 3]) + (1 - begin) * frame.length * (1 + 0x1p-48) < low(begin);
+}
+
+void FieldWaves::add_window(WindowId window, std::uint8_t side) {
+  const Frames& frames = resolution_.frames();
+  for (WindowId w = window; w != kNone; w = field_.windows[w].parent)
+    if (field_.windows[w].dead()) return;
+  Strip strip = strip_of(frames.mesh(), field_, window);
+  const Unfolding<double> at = unfold_double(frames, strip);
+  const VertexId root = field_.windows[window].root;
+  if (certainly_dominated(at, field_.distance[root], field_.error[root], side)) return;
+  FacetSite site;
+  site.window = window;
+  site.side = side;
+  site.root = root;
+  site.labels = resolution_.labels(root);
+  note_cone(site, strip, window);
+  for (std::uint8_t c = 0; c < 2; ++c) {
+    const std::uint8_t k = static_cast<std::uint8_t>((side + c) % 3);
+    site.attains_corner[k] = site.cone[c] == corner[k] && site.attains_cone[c];
+  }
+  const std::uint8_t opposite = static_cast<std::uint8_t>((side + 2) % 3);
+  site.attains_corner[opposite] = resolution_.attains(window, corner[opposite]);
+  const double unit = predicates::unit<double>(0);
+  sites_.push_back(make_site<double>(site, at, narrowed(resolution_.distance(root)), frames(3 * face), unit));
+  sites.push_back(site);
+  strips_.push_back(std::move(strip));
+}
+
+/// Follows the strip once more for the names of the cone's vertices.
+void FieldWaves::note_cone(FacetSite& site, const Strip& strip, WindowId window) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  std::array<bool, 2> known{false, false};
+  WindowId w = window;
+  for (std::size_t i = strip.steps.size(); i-- > 0; w = field_.windows[w].parent) {
+    const predicates::StripStep& step = strip.steps[i];
+    const std::size_t c = step.left ? 1 : 0;
+    if (!step.bounds || known[c]) continue;
+    const WindowId parent = field_.windows[w].parent;
+    site.cone[c] = mesh.apex(field_.windows[parent].halfedge());
+    site.attains_cone[c] = resolution_.attains(parent, site.cone[c]);
+    known[c] = true;
+  }
+  const HalfedgeId first = mesh.twin(strip.opposite);
+  for (std::size_t c = 0; c < 2; ++c) {
+    if (known[c]) continue;
+    site.cone[c] = c == 0 ? mesh.origin(first) : mesh.target(first);
+    site.attains_cone[c] = resolution_.attains_along_edge(site.root, site.cone[c]);
+  }
+}
+
+LabelSetId FieldWaves::only_label() const noexcept {
+  if (sites.empty()) return kNone;
+  for (const FacetSite& s : sites)
+    if (s.labels != sites.front().labels) return kNone;
+  for (const LabelSetId l : corner_labels)
+    if (l != sites.front().labels) return kNone;
+  return sites.front().labels;
+}
+
+template <class T>
+predicates::FacetFrame<Ball<T>> FieldWaves::make_frame(const EdgeFrame<T>& first, double unit) const {
+  const double apex_error = predicates::kUnfoldingStep * unit * predicates::rough_size(Complex<T>{first.u, first.y});
+  const double length_error = predicates::kUnfoldingStep * unit * predicates::rough(first.length);
+  return {{Ball<T>(first.u, apex_error), Ball<T>(first.y, apex_error)},
+          Ball<T>(first.length, length_error).scaled(resolution_.frames().scale())};
+}
+
+template <class T>
+predicates::Site<Ball<T>> FieldWaves::make_site(const FacetSite& site, const Unfolding<T>& at, const Ball<T>& weight,
+                                                const EdgeFrame<T>& first, double unit) const {
+  const double apex_error = predicates::kUnfoldingStep * unit * predicates::rough_size(Complex<T>{first.u, first.y});
+  const PlanePoint<Ball<T>> apex{Ball<T>(first.u, apex_error), Ball<T>(first.y, apex_error)};
+  const double length_error = predicates::kUnfoldingStep * unit * predicates::rough(first.length);
+  predicates::Site<Ball<T>> result;
+  result.weight = weight / Ball<T>(first.length, length_error);
+  if (site.window == kNone) {
+    if (site.corner == 0) result.image = {Ball<T>(0.0), Ball<T>(0.0)};
+    if (site.corner == 1) result.image = {Ball<T>(1.0), Ball<T>(0.0)};
+    if (site.corner == 2) result.image = apex;
+    return result;
+  }
+  result.has_cone = true;
+  result.image = to_first_side(balls(at.image), site.side, apex);
+  result.cone = {to_first_side(balls(at.cone0), site.side, apex), to_first_side(balls(at.cone1), site.side, apex)};
+  return result;
+}
+
+FieldWaves::Precise& FieldWaves::precise() {
+  if (!precise_) {
+    precise_ = std::make_unique<Precise>();
+    precise_->dd_sites.resize(sites.size());
+    precise_->m_sites.resize(sites.size());
+  }
+  return *precise_;
+}
+
+const predicates::FacetFrame<FieldWaves::DD>& FieldWaves::frame(DD) {
+  Precise& p = precise();
+  if (!p.dd_frame) {
+    const auto& first = resolution_.frames().in_double_double(3 * face);
+    p.dd_frame = std::make_unique<predicates::FacetFrame<DD>>(make_frame<DoubleDouble>(first, predicates::unit<DoubleDouble>(0)));
+  }
+  return *p.dd_frame;
+}
+
+const predicates::Site<FieldWaves::DD>& FieldWaves::site(std::size_t i, DD) {
+  Precise& p = precise();
+  if (!p.dd_sites[i]) {
+    const auto& first = resolution_.frames().in_double_double(3 * face);
+    Unfolding<DoubleDouble> at;
+    if (sites[i].window != kNone) at = unfold_double_double(resolution_.frames(), strips_[i]);
+    p.dd_sites[i] = std::make_unique<predicates::Site<DD>>(make_site<DoubleDouble>(
+        sites[i], at, resolution_.distance(sites[i].root), first, predicates::unit<DoubleDouble>(0)));
+  }
+  return *p.dd_sites[i];
+}
+
+const predicates::FacetFrame<FieldWaves::M>& FieldWaves::frame(M, int bits) {
+  Precise& p = precise();
+  if (p.bits != bits) {
+    p.bits = bits;
+    p.m_frame.reset();
+    for (auto& s : p.m_sites) s.reset();
+  }
+  if (!p.m_frame) {
+    const auto first = resolution_.frames().in_mpfr(face, bits)[0];
+    p.m_frame = std::make_unique<predicates::FacetFrame<M>>(make_frame<Mpfr>(first, predicates::unit<Mpfr>(bits)));
+  }
+  return *p.m_frame;
+}
+
+const predicates::Site<FieldWaves::M>& FieldWaves::site(std::size_t i, M, int bits) {
+  Precise& p = precise();
+  frame(M(), bits);
+  if (!p.m_sites[i]) {
+    const auto first = resolution_.frames().in_mpfr(face, bits)[0];
+    Unfolding<Mpfr> at;
+    if (sites[i].window != kNone) at = unfold_mpfr(resolution_.frames(), strips_[i], bits);
+    p.m_sites[i] = std::make_unique<predicates::Site<M>>(
+        make_site<Mpfr>(sites[i], at, resolution_.distance(sites[i].root, bits), first, predicates::unit<Mpfr>(bits)));
+  }
+  return *p.m_sites[i];
+}
+
+const predicates::FacetFrame<Exact>* FieldWaves::exact_frame() {
+  Precise& p = precise();
+  if (!p.exact_tried) {
+    p.exact_tried = true;
+    if (!make_exact()) {
+      p.exact_frame.reset();
+      p.exact_sites.clear();
+    }
+  }
+  return p.exact_frame.get();
+}
+
+const predicates::Site<Exact>* FieldWaves::exact_site(std::size_t i) {
+  return exact_frame() != nullptr ? &precise_->exact_sites[i] : nullptr;
+}
+
+bool FieldWaves::make_exact() {
+  Precise& p = *precise_;
+  const Frames& frames = resolution_.frames();
+  const ExactFace exact = frames.exact(face);
+  const Exact root = sqrt(Exact(exact.radicand));
+  const auto point = [&](const QuadraticPoint& z) { return PlanePoint<Exact>{Exact(z.x), Exact(z.y) * root}; };
+  const PlanePoint<Exact> apex = point(exact_apex(frames, 3 * face, exact.radicand));
+  p.exact_frame = std::make_unique<predicates::FacetFrame<Exact>>();
+  p.exact_frame->apex = apex;
+  p.exact_frame->length = sqrt(Exact(exact.squared[0])).scaled(frames.scale());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const auto weight = resolution_.exact_distance(sites[i].root);
+    if (!weight || weight->terms().size() > kMostRoots) return false;
+    predicates::Site<Exact> site;
+    site.weight = sgn(weight->constant()) == 0 ? Exact(0.0) : Exact(weight->constant()) / sqrt(Exact(exact.squared[0]));
+    for (const auto& term : weight->terms())
+      site.weight = site.weight + Exact(term.coefficient) * sqrt(Exact(mpq_class(term.radicand / exact.squared[0])));
+    if (sites[i].window == kNone) {
+      site.image = sites[i].corner == 0 ? PlanePoint<Exact>{Exact(0.0), Exact(0.0)}
+                   : sites[i].corner == 1 ? PlanePoint<Exact>{Exact(1.0), Exact(0.0)}
+                                          : apex;
+    } else {
+      const auto at = unfold_exact(frames, strips_[i], 3 * face + sites[i].side);
+      if (!at) return false;
+      // The unfolding's radicand is that of this face.
+      site.has_cone = true;
+      site.image = to_first_side(point(at->image), sites[i].side, apex);
+      site.cone = {to_first_side(point(at->cone0), sites[i].side, apex), to_first_side(point(at->cone1), sites[i].side, apex)};
+    }
+    p.exact_sites.push_back(std::move(site));
+  }
+  return true;
+}
+
+}  // namespace gvd::kernel

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gvd/kernel/distance_field.hpp"
+#include "gvd/kernel/facet.hpp"
+#include "gvd/kernel/resolution.hpp"
+#include "gvd/kernel/unfolding.hpp"
+
+namespace gvd::kernel {
+
+/// The wave set of a facet, taken from the distance field. Numbers are made on demand and kept; used by one thread at a time.
+class FieldWaves final : public FacetWaves {
+ public:
+  FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f);
+
+  const predicates::FacetFrame<F>& frame(F) override { return frame_; }
+  const predicates::Site<F>& site(std::size_t i, F) override { return sites_[i]; }
+  const predicates::FacetFrame<DD>& frame(DD) override;
+  const predicates::Site<DD>& site(std::size_t i, DD) override;
+  const predicates::FacetFrame<M>& frame(M, int bits) override;
+  const predicates::Site<M>& site(std::size_t i, M, int bits) override;
+  const predicates::FacetFrame<robust::Exact>* exact_frame() override;
+  const predicates::Site<robust::Exact>* exact_site(std::size_t i) override;
+
+  /// The label set that all sites share; kNone if there are several.
+  LabelSetId only_label() const noexcept;
+
+ private:
+  void add_window(WindowId window, std::uint8_t side);
+  void add_corner(std::uint8_t k);
+  void note_cone(FacetSite& site, const predicates::Strip& strip, WindowId window) const;
+  bool certainly_dominated(const predicates::Unfolding<double>& at, double weight, double weight_error, std::uint8_t side) const;
+  template <class T>
+  predicates::Site<robust::Ball<T>> make_site(const FacetSite& site, const predicates::Unfolding<T>& at, const robust::Ball<T>& weight,
+                                              const predicates::EdgeFrame<T>& first, double unit) const;
+  template <class T>
+  predicates::FacetFrame<robust::Ball<T>> make_frame(const predicates::EdgeFrame<T>& first, double unit) const;
+  bool make_exact();
+
+  const Resolution& resolution_;
+  const DistanceField& field_;
+  predicates::FacetFrame<F> frame_;
+  std::vector<predicates::Site<F>> sites_;
+  std::vector<predicates::Strip> strips_;
+
+  /// What only few facets need.
+  struct Precise {
+    std::unique_ptr<predicates::FacetFrame<DD>> dd_frame;
+    std::vector<std::unique_ptr<predicates::Site<DD>>> dd_sites;
+    int bits = 0;
+    std::unique_ptr<predicates::FacetFrame<M>> m_frame;
+    std::vector<std::unique_ptr<predicates::Site<M>>> m_sites;
+    bool exact_tried = false;
+    std::unique_ptr<predicates::FacetFrame<robust::Exact>> exact_frame;
+    std::vector<predicates::Site<robust::Exact>> exact_sites;
+  };
+  Precise& precise();
+  std::unique_ptr<Precise> precise_;
+};
+
+}  // namespace gvd::kernel

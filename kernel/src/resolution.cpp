@@ -1,0 +1,278 @@
+#include "gvd/kernel/resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "gvd/kernel/error.hpp"
+#include "gvd/robust/rational.hpp"
+#include "gvd/robust/rounding.hpp"
+
+namespace gvd::kernel {
+
+using predicates::Predicate;
+using robust::Ball;
+using robust::DoubleDouble;
+using robust::Mpfr;
+using robust::RootSum;
+using robust::Stage;
+
+namespace {
+
+/// Beyond so many relays an exact sum of roots is not attempted.
+constexpr int kMostRelays = 24;
+constexpr std::array<int, 4> kMpfrBits = {128, 256, 512, 1024};
+
+template <class NT>
+NT hypot(const NT& x, const NT& y) {
+  return sqrt(square(x) + square(y));
+}
+
+/// length * |image - apex| in the frame of h.
+template <class T>
+Ball<T> last_leg(const predicates::Disc<T>& image, const predicates::EdgeFrame<T>& frame, double unit) {
+  const double apex_error = predicates::kUnfoldingStep * unit * predicates::rough_size(predicates::Complex<T>{frame.u, frame.y});
+  const Ball<T> x = predicates::ball_x(image) - Ball<T>(frame.u, apex_error);
+  const Ball<T> y = predicates::ball_y(image) - Ball<T>(frame.y, apex_error);
+  const double length_error = predicates::kUnfoldingStep * unit * predicates::rough(frame.length);
+  return Ball<T>(frame.length, length_error) * hypot(x, y);
+}
+
+}  // namespace
+
+LabelSetId LabelSets::intern(std::vector<SourceId> sorted) {
+  const auto [it, added] = ids_.try_emplace(std::move(sorted), static_cast<LabelSetId>(sets_.size()));
+  if (added) sets_.push_back(it->first);
+  return it->second;
+}
+
+LabelSetId LabelSets::merge(LabelSetId a, LabelSetId b) {
+  if (a == b) return a;
+  std::vector<SourceId> both;
+  std::set_union(sets_[a].begin(), sets_[a].end(), sets_[b].begin(), sets_[b].end(), std::back_inserter(both));
+  return intern(std::move(both));
+}
+
+Resolution::Resolution(const Frames& frames, DistanceField& field, const std::vector<SourceVertex>& sources, LabelSets& sets)
+    : frames_(frames), field_(field), sources_(sources), sets_(sets) {
+  const std::size_t n = frames.mesh().vertex_count();
+  source_of_vertex_.assign(n, kNone);
+  for (std::size_t i = 0; i < sources.size(); ++i) source_of_vertex_[sources[i].vertex] = static_cast<std::uint32_t>(i);
+  labels_.assign(n, kNone);
+  distance_.resize(n);
+}
+
+void Resolution::resolve(predicates::Decisions& decisions) {
+  std::vector<VertexId> order;
+  order.reserve(labels_.size());
+  for (VertexId v = 0; v < labels_.size(); ++v)
+    if (std::isfinite(field_.distance[v])) order.push_back(v);
+  std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
+    return field_.distance[a] != field_.distance[b] ? field_.distance[a] < field_.distance[b] : a < b;
+  });
+  for (const VertexId v : order) resolve_vertex(v, decisions);
+}
+
+void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
+    const Candidate& candidate = field_.candidates[c];
+    // A root that is not resolved yet lies farther than v by more than all errors, or the two are closer than doubles can tell.
+    if (candidate.via != v && labels_[candidate.via] == kNone) {
+      if (field_.distance[candidate.via] - field_.error[candidate.via] < field_.distance[v] + field_.error[v])
+        predicates::undecided(decisions, Predicate::vertex_distance,
+                              "order of vertices " + std::to_string(v) + " and " + std::to_string(candidate.via));
+      continue;
+    }
+    list.push_back(c);
+  }
+  if (list.empty()) throw InternalError("vertex " + std::to_string(v) + " is reached by no candidate");
+  if (list.size() == 1) {
+    predicates::count(decisions, Predicate::vertex_distance, Stage::filter);
+  } else {
+    list = nearest_of(list, v, decisions);
+  }
+  std::sort(list.begin(), list.end());
+  LabelSetId labels = kNone;
+  for (const std::uint32_t c : list) {
+    const Candidate& candidate = field_.candidates[c];
+    const LabelSetId own = candidate.via == v ? sources_[source_of_vertex_[v]].labels : labels_[candidate.via];
+    labels = labels == kNone ? own : sets_.merge(labels, own);
+  }
+  labels_[v] = labels;
+  distance_[v] = length(field_.candidates[list.front()], v);
+  field_.first_candidate[v] = list.front();
+  for (std::size_t i = 0; i < list.size(); ++i) field_.candidates[list[i]].next = i + 1 < list.size() ? list[i + 1] : kNone;
+}
+
+namespace {
+
+/// Drops what is certainly longer than the least upper bound.
+template <class T>
+void keep_nearest(std::vector<std::uint32_t>& list, const std::vector<Ball<T>>& lengths) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < list.size(); ++i)
+    if (maybe_sign(lengths[i] - lengths[best]) == robust::Sign::negative ||
+        (!maybe_sign(lengths[i] - lengths[best]) && lengths[i].rad() < lengths[best].rad()))
+      best = i;
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (i == best || maybe_sign(lengths[i] - lengths[best]) != robust::Sign::positive) kept.push_back(list[i]);
+  list = std::move(kept);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> Resolution::nearest_of(const std::vector<std::uint32_t>& candidates, VertexId v,
+                                                  predicates::Decisions& decisions) const {
+  std::vector<std::uint32_t> list = candidates;
+  const std::size_t before = list.size();
+  double best = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t c : list) best = std::min(best, field_.candidates[c].distance + field_.candidates[c].error);
+  std::erase_if(list, [&](std::uint32_t c) { return field_.candidates[c].distance - field_.candidates[c].error > best; });
+  if (list.size() == 1) {
+    predicates::count(decisions, Predicate::vertex_distance, Stage::filter);
+    return list;
+  }
+  {
+    std::vector<Ball<DoubleDouble>> lengths;
+    for (const std::uint32_t c : list) lengths.push_back(length(field_.candidates[c], v));
+    keep_nearest(list, lengths);
+  }
+  if (list.size() == 1) {
+    predicates::count(decisions, Predicate::vertex_distance, Stage::double_double);
+    return list;
+  }
+  std::vector<RootSum> sums;
+  for (const std::uint32_t c : list) {
+    auto sum = exact_length(field_.candidates[c], v, kMostRelays);
+    if (!sum) break;
+    sums.push_back(std::move(*sum));
+  }
+  if (sums.size() == list.size()) {
+    std::size_t least = 0;
+    for (std::size_t i = 1; i < list.size(); ++i)
+      if (compare(sums[i], sums[least]) == robust::Sign::negative) least = i;
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (compare(sums[i], sums[least]) == robust::Sign::zero) kept.push_back(list[i]);
+    predicates::count(decisions, Predicate::vertex_distance, Stage::algebra);
+    return kept;
+  }
+  for (const int bits : kMpfrBits) {
+    std::vector<Ball<Mpfr>> lengths;
+    for (const std::uint32_t c : list) lengths.push_back(length(field_.candidates[c], v, bits));
+    keep_nearest(list, lengths);
+    if (list.size() == 1) {
+      predicates::count(decisions, Predicate::vertex_distance, Stage::mpfr);
+      return list;
+    }
+  }
+  predicates::undecided(decisions, Predicate::vertex_distance,
+                        "vertex " + std::to_string(v) + ": " + std::to_string(list.size()) + " of " + std::to_string(before) +
+                            " paths agree to 1024 bits");
+  return list;
+}
+
+HalfedgeId Resolution::edge_between(VertexId a, VertexId b) const {
+  const Mesh& mesh = frames_.mesh();
+  HalfedgeId found = kNone;
+  mesh.for_each_outgoing(a, [&](HalfedgeId h) {
+    if (mesh.target(h) == b) found = h;
+    if (mesh.origin(Mesh::prev(h)) == b) found = Mesh::prev(h);
+  });
+  return found;
+}
+
+Ball<DoubleDouble> Resolution::length(const Candidate& c, VertexId v) const {
+  const double unit = predicates::unit<DoubleDouble>(0);
+  if (c.via == v) return Ball<DoubleDouble>(std::ldexp(sources_[source_of_vertex_[v]].weight, -frames_.scale()));
+  if (c.window == kNone) {
+    const DoubleDouble edge = frames_.in_double_double(edge_between(c.via, v)).length;
+    return distance_[c.via] + Ball<DoubleDouble>(edge, predicates::kUnfoldingStep * unit * edge.hi);
+  }
+  const predicates::Strip strip = strip_of(frames_.mesh(), field_, c.window);
+  const auto frame = [&](HalfedgeId h) -> const predicates::EdgeFrame<DoubleDouble>& { return frames_.in_double_double(h); };
+  const auto at = predicates::unfold<DoubleDouble, false>(strip, frame);
+  return distance_[c.via] + last_leg(at.image, frame(field_.windows[c.window].halfedge()), unit);
+}
+
+Ball<Mpfr> Resolution::length(const Candidate& c, VertexId v, int bits) const {
+  const double unit = predicates::unit<Mpfr>(bits);
+  if (c.via == v) return Ball<Mpfr>(Mpfr(std::ldexp(sources_[source_of_vertex_[v]].weight, -frames_.scale()), bits), 0);
+  const Ball<Mpfr> root = distance(c.via, bits);
+  if (c.window == kNone) {
+    const HalfedgeId h = edge_between(c.via, v);
+    const Mpfr edge = frames_.in_mpfr(Mesh::face(h), bits)[h % 3].length;
+    return root + Ball<Mpfr>(edge, predicates::kUnfoldingStep * unit * edge.to_double());
+  }
+  const auto at = unfold_mpfr(frames_, strip_of(frames_.mesh(), field_, c.window), bits);
+  const HalfedgeId h = field_.windows[c.window].halfedge();
+  return root + last_leg(at.image, frames_.in_mpfr(Mesh::face(h), bits)[h % 3], unit);
+}
+
+Ball<Mpfr> Resolution::distance(VertexId v, int bits) const { return length(field_.candidates[field_.first_candidate[v]], v, bits); }
+
+std::optional<RootSum> Resolution::exact_distance(VertexId v) const { return exact_distance(v, kMostRelays); }
+
+std::optional<RootSum> Resolution::exact_distance(VertexId v, int depth) const {
+  return exact_length(field_.candidates[field_.first_candidate[v]], v, depth);
+}
+
+std::optional<RootSum> Resolution::exact_length(const Candidate& c, VertexId v, int depth) const {
+  if (depth == 0) return std::nullopt;
+  if (c.via == v)
+    return RootSum(robust::exact_rational(sources_[source_of_vertex_[v]].weight) * robust::power_of_two(-frames_.scale()));
+  auto sum = exact_distance(c.via, depth - 1);
+  if (!sum) return std::nullopt;
+  if (c.window == kNone) {
+    const HalfedgeId h = edge_between(c.via, v);
+    sum->add(1, frames_.exact(Mesh::face(h)).squared[h % 3]);
+    return sum;
+  }
+  const HalfedgeId h = field_.windows[c.window].halfedge();
+  const auto at = unfold_exact(frames_, strip_of(frames_.mesh(), field_, c.window), h);
+  if (!at) return std::nullopt;
+  const QuadraticPoint apex = exact_apex(frames_, h, at->radicand);
+  const mpq_class x = at->image.x - apex.x, y = at->image.y - apex.y;
+  const mpq_class squared = (x * x + y * y * at->radicand) * frames_.exact(Mesh::face(h)).squared[h % 3];
+  sum->add(1, squared);
+  return sum;
+}
+
+bool Resolution::attains(WindowId window, VertexId v) const noexcept {
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next)
+    if (field_.candidates[c].window == window && window != kNone) return true;
+  return false;
+}
+
+bool Resolution::attains_along_edge(VertexId via, VertexId v) const noexcept {
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next)
+    if (field_.candidates[c].window == kNone && field_.candidates[c].via == via) return true;
+  return false;
+}
+
+double rounded_distance(const Resolution& resolution, VertexId v, predicates::Decisions& decisions) {
+  const int scale = resolution.frames().scale();
+  const Ball<DoubleDouble>& d = resolution.distance(v);
+  if (const auto value = robust::rounded(d.scaled(scale))) {
+    predicates::count(decisions, Predicate::rounding, Stage::double_double);
+    return *value;
+  }
+  if (const auto sum = resolution.exact_distance(v)) {
+    predicates::count(decisions, Predicate::rounding, Stage::algebra);
+    return (*sum * robust::power_of_two(scale)).rounded();
+  }
+  for (const int bits : kMpfrBits) {
+    if (const auto value = robust::rounded(resolution.distance(v, bits).scaled(scale))) {
+      predicates::count(decisions, Predicate::rounding, Stage::mpfr);
+      return *value;
+    }
+  }
+  predicates::undecided(decisions, Predicate::rounding, "distance of vertex " + std::to_string(v) + ": within 2^-1024 of a midpoint of two doubles");
+  return std::ldexp(d.mid().hi, scale);
+}
+
+}  // namespace gvd::kernel
