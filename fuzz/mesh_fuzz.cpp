@@ -1,4 +1,8 @@
-// Triangle soups of a few small-integer points: Mesh refuses them with InputError, or its half-edges are consistent.
+// Triangle soups over a few points with small integer coordinates: Mesh refuses them with InputError, or its half-edges are
+// consistent.
+#include <array>
+#include <vector>
+
 #include "fuzz_input.hpp"
 #include "gvd/kernel/error.hpp"
 #include "gvd/kernel/mesh.hpp"
@@ -9,18 +13,17 @@ using gvd::fuzz::Input;
 using gvd::fuzz::require;
 using namespace gvd::kernel;
 
-MeshArrays soup(Input& input) {
-  MeshArrays arrays;
-  arrays.points.resize(input.below(12));
-  for (Point& p : arrays.points)
+std::vector<Point> points(Input& input) {
+  std::vector<Point> result(3 + input.below(8));
+  for (Point& p : result)
     for (double& x : p) x = static_cast<double>(input.below(5));
-  while (!input.empty()) {
-    // One index in eight or so may be out of range.
-    const auto limit = static_cast<std::uint32_t>(arrays.points.size() + (input.below(8) == 0));
-    if (limit == 0) continue;
-    arrays.faces.push_back({input.below(limit), input.below(limit), input.below(limit)});
-  }
-  return arrays;
+  return result;
+}
+
+/// One index in about fifty is out of range.
+std::array<std::uint32_t, 3> face(Input& input, std::size_t point_count) {
+  const auto limit = static_cast<std::uint32_t>(point_count + (input.below(16) == 0));
+  return {input.below(limit), input.below(limit), input.below(limit)};
 }
 
 void check_halfedges(const Mesh& mesh) {
@@ -43,17 +46,29 @@ void check_fans(const Mesh& mesh) {
   require(corners == mesh.halfedge_count(), "the fan of each vertex holds every corner once");
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Input input(data, size);
-  const MeshArrays arrays = soup(input);
+/// Whether the mesh is accepted; if so it must be consistent.
+bool accepted(const MeshArrays& arrays) {
   try {
     const Mesh mesh(arrays);
     require(mesh.face_count() == arrays.faces.size() && mesh.vertex_count() == arrays.points.size(), "nothing is dropped");
     check_halfedges(mesh);
     check_fans(mesh);
+    return true;
   } catch (const gvd::InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr std::size_t kMostFaces = 30;
+  Input input(data, size);
+  MeshArrays arrays{points(input), {}};
+  // A face that is refused is taken away again, so that meshes grow.
+  while (!input.empty() && arrays.faces.size() < kMostFaces) {
+    arrays.faces.push_back(face(input, arrays.points.size()));
+    if (!accepted(arrays)) arrays.faces.pop_back();
   }
   return 0;
 }
