@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <string>
 
+#include "file_bytes.hpp"
 #include "file_cursor.hpp"
 #include "gvd/kernel/error.hpp"
 #include "mesh_formats.hpp"
@@ -39,27 +39,6 @@ Format format_of_extension(const std::filesystem::path& file) {
   return Format::unknown;
 }
 
-std::string read_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: no such file", file.string()));
-  if (std::filesystem::is_directory(status)) throw InputError(fmt::format("{}: is a directory, not a mesh file", file.string()));
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot be opened", file.string()));
-  std::string bytes;
-  const auto size = std::filesystem::file_size(file, error);
-  if (!error) bytes.reserve(static_cast<std::size_t>(size) + 1);
-  constexpr std::size_t kChunk = std::size_t{1} << 20;
-  while (stream) {
-    const std::size_t have = bytes.size();
-    bytes.resize(have + kChunk);
-    stream.read(bytes.data() + have, kChunk);
-    bytes.resize(have + static_cast<std::size_t>(stream.gcount()));
-  }
-  if (stream.bad()) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  return bytes;
-}
-
 kernel::MeshArrays parse_any(std::string_view bytes, const std::filesystem::path& path, const std::string& name) {
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", name));
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);  // the byte order mark of some editors
@@ -90,6 +69,6 @@ kernel::MeshArrays parse_mesh(std::string_view bytes, const std::filesystem::pat
   return mesh;
 }
 
-kernel::MeshArrays read_mesh(const std::filesystem::path& file) { return parse_mesh(read_bytes(file), file); }
+kernel::MeshArrays read_mesh(const std::filesystem::path& file) { return parse_mesh(read_bytes(file, "a mesh file"), file); }
 
 }  // namespace gvd::io
