@@ -1,0 +1,246 @@
+#include "gvd/predicates/angle_sum.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "gvd/robust/ball.hpp"
+#include "gvd/robust/double_double.hpp"
+#include "gvd/robust/exact.hpp"
+#include "gvd/robust/mpfr_float.hpp"
+#include "gvd/robust/rational.hpp"
+
+namespace gvd::predicates {
+namespace {
+
+using robust::Ball;
+using robust::MaybeSign;
+using robust::Sign;
+using robust::Stage;
+
+/// Sizes within which products of four numbers neither overflow nor lose more by underflow than the bound has to spare.
+constexpr double kSmallest = 1e-140, kLargest = 1e140;
+
+/// How many quarter turns bring x + i y to where the real part is positive and at least as large as the imaginary one.
+int quarter_of(double x, double y) noexcept {
+  if (x - y >= 0) return x + y >= 0 ? 0 : 3;
+  return x + y >= 0 ? 1 : 2;
+}
+
+template <class NT>
+int quarter_of(const NT& x, const NT& y) {
+  const auto not_negative = [](MaybeSign s) { return s != Sign::negative; };
+  const bool right_or_down = not_negative(maybe_sign(x - y)), right_or_up = not_negative(maybe_sign(x + y));
+  if (right_or_down) return right_or_up ? 0 : 3;
+  return right_or_up ? 1 : 2;
+}
+
+/// Divides x + i y by i^quarters.
+template <class NT>
+void turn_back(NT& x, NT& y, int quarters) {
+  NT x_before = x;
+  if (quarters == 1) {
+    x = y;
+    y = -x_before;
+  } else if (quarters == 2) {
+    x = -x;
+    y = -y;
+  } else if (quarters == 3) {
+    x = -y;
+    y = x_before;
+  }
+}
+
+/// What the comparison is, once the sum is known to be q pi/2 + arg z with |arg z| < pi/2.
+template <class SignOfImaginaryPart>
+MaybeSign compare_turns(int quarters, int quarter_turns, SignOfImaginaryPart sign) {
+  if (quarters > quarter_turns) return Sign::positive;
+  if (quarters < quarter_turns) return Sign::negative;
+  return sign();
+}
+
+/// The same product in a number type that knows its errors: everything is verified, nothing bounded in advance.
+template <class NT>
+class TurnedProduct {
+ public:
+  void add(NT x, NT y) {
+    quarters_ += turn_certainly(x, y);
+    NT product_x = x_ * x - y_ * y;
+    y_ = x_ * y + y_ * x;
+    x_ = std::move(product_x);
+    // |arg| < pi now, and one of -1, 0, 1 quarter turns brings it below pi/2; half a turn would leave it open which way round.
+    const int quarters = turn_certainly(x_, y_);
+    if (quarters == 2) certain_ = false;
+    quarters_ += quarters == 3 ? -1 : quarters;
+  }
+
+  MaybeSign compare(int quarter_turns) const {
+    if (!certain_) return std::nullopt;
+    return compare_turns(quarters_, quarter_turns, [&] { return maybe_sign(y_); });
+  }
+
+  std::optional<int> quarters() const { return certain_ ? std::optional(quarters_) : std::nullopt; }
+
+ private:
+  int turn_certainly(NT& x, NT& y) {
+    const int quarters = quarter_of(x, y);
+    turn_back(x, y, quarters);
+    if (maybe_sign(x) != Sign::positive) certain_ = false;
+    return quarters;
+  }
+
+  NT x_ = NT(1.0), y_ = NT(0.0);
+  int quarters_ = 0;
+  bool certain_ = true;
+};
+
+template <class NT>
+TurnedProduct<NT> product_of(std::span<const ExactCorner> fan, int bits) {
+  TurnedProduct<NT> product;
+  for (const ExactCorner& corner : fan) {
+    product.add(robust::from<NT>(corner.dot, bits), sqrt(robust::from<NT>(corner.cross_square, bits)));
+  }
+  return product;
+}
+
+constexpr int kBits[] = {128, 256, 512, 1024};
+
+/// The roots |d x e| of a fan over few radicands: |d x e| of corner i is factor[i] times the root of radicands[which[i]].
+struct SharedRoots {
+  std::vector<mpq_class> radicands, factors;
+  std::vector<std::size_t> which;
+};
+
+/// Empty if there are more than `most` radicands.
+std::optional<SharedRoots> share_roots(std::span<const ExactCorner> fan, std::size_t most) {
+  SharedRoots roots;
+  for (const ExactCorner& corner : fan) {
+    std::optional<mpq_class> factor;
+    std::size_t k = 0;
+    for (; k < roots.radicands.size() && !factor; ++k) factor = robust::rational_square_root(corner.cross_square / roots.radicands[k]);
+    if (!factor) {
+      if (roots.radicands.size() == most) return std::nullopt;
+      roots.radicands.push_back(corner.cross_square);
+      factor = 1;
+      ++k;
+    }
+    roots.factors.push_back(*factor);
+    roots.which.push_back(k - 1);
+  }
+  return roots;
+}
+
+/// Pre: the sum is less than a quarter turn off.
+MaybeSign sign_of_exact_product(std::span<const ExactCorner> fan, const SharedRoots& shared, int quarter_turns) {
+  std::vector<robust::Exact> roots;
+  for (const mpq_class& radicand : shared.radicands) roots.push_back(sqrt(robust::Exact(radicand)));
+  robust::Exact x(1.0), y(0.0);
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    const robust::Exact u(fan[i].dot), v = robust::Exact(shared.factors[i]) * roots[shared.which[i]];
+    const robust::Exact product_x = x * u - y * v;
+    y = x * v + y * u;
+    x = product_x;
+  }
+  turn_back(x, y, quarter_turns % 4);
+  return maybe_sign(y);
+}
+
+/// The whole number of quarter turns that is certainly less than one off, by as many bits as that takes (few).
+std::optional<int> certain_quarters(std::span<const ExactCorner> fan) {
+  if (const auto quarters = product_of<Ball<robust::DoubleDouble>>(fan, 0).quarters()) return quarters;
+  for (const int bits : kBits) {
+    if (const auto quarters = product_of<Ball<robust::Mpfr>>(fan, bits).quarters()) return quarters;
+  }
+  return std::nullopt;
+}
+
+MaybeSign exact_with_roots(std::span<const ExactCorner> fan, int quarter_turns, std::size_t most_roots) {
+  const auto shared = share_roots(fan, most_roots);
+  if (!shared) return std::nullopt;
+  const auto quarters = certain_quarters(fan);
+  if (!quarters) return std::nullopt;
+  return compare_turns(*quarters, quarter_turns, [&] { return sign_of_exact_product(fan, *shared, quarter_turns); });
+}
+
+}  // namespace
+
+void AngleSumFilter::add(const Vector& d, const Vector& e, double input_error) noexcept {
+  double x = d[0] * e[0] + d[1] * e[1] + d[2] * e[2];
+  const double c0 = d[1] * e[2] - d[2] * e[1], c1 = d[2] * e[0] - d[0] * e[2], c2 = d[0] * e[1] - d[1] * e[0];
+  double y = std::sqrt(c0 * c0 + c1 * c1 + c2 * c2);
+  const double size = std::abs(x) + y;
+  if (!(size > kSmallest && size < kLargest)) in_range_ = false;
+  factors_ += 1;
+  input_error_ += input_error;
+  const int quarters = quarter_of(x, y);
+  turn_back(x, y, quarters);
+  const double product_x = x_ * x - y_ * y;
+  y_ = x_ * y + y_ * x;
+  x_ = product_x;
+  const int more = quarter_of(x_, y_);
+  turn_back(x_, y_, more);
+  quarters_ += quarters + (more == 3 ? -1 : more);
+  if (x_ > kLargest) {
+    x_ *= 0x1p-465;
+    y_ *= 0x1p-465;
+  } else if (x_ < kSmallest) {
+    x_ *= 0x1p465;
+    y_ *= 0x1p465;
+  }
+}
+
+double AngleSumFilter::error_bound() const noexcept { return 13 * 0x1p-53 * factors_ + 1.6 * input_error_; }
+
+std::optional<int> AngleSumFilter::nearest_quarter_turns() const noexcept {
+  if (!in_range_ || !(error_bound() < 0x1p-10)) return std::nullopt;
+  return quarters_;
+}
+
+MaybeSign AngleSumFilter::compare(int quarter_turns) const noexcept {
+  const auto quarters = nearest_quarter_turns();
+  if (!quarters) return std::nullopt;
+  return compare_turns(*quarters, quarter_turns, [&]() -> MaybeSign {
+    if (!(std::abs(y_) > error_bound() * (std::abs(x_) + std::abs(y_)))) return std::nullopt;
+    return y_ > 0 ? Sign::positive : Sign::negative;
+  });
+}
+
+ExactCorner exact_corner(const std::array<mpq_class, 3>& d, const std::array<mpq_class, 3>& e) {
+  ExactCorner corner;
+  corner.dot = d[0] * e[0] + d[1] * e[1] + d[2] * e[2];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const mpq_class c = d[i] * e[j] - d[j] * e[i];
+    corner.cross_square += c * c;
+  }
+  const mpq_class size = corner.dot * corner.dot + corner.cross_square;  // |d|^2 |e|^2
+  const long exponent = static_cast<long>(mpz_sizeinbase(size.get_num().get_mpz_t(), 2)) -
+                        static_cast<long>(mpz_sizeinbase(size.get_den().get_mpz_t(), 2));
+  const long quarter = exponent / 4;
+  corner.dot *= robust::power_of_two(-2 * quarter);
+  corner.cross_square *= robust::power_of_two(-4 * quarter);
+  return corner;
+}
+
+MaybeSign double_double_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
+  return product_of<Ball<robust::DoubleDouble>>(fan, 0).compare(quarter_turns);
+}
+
+MaybeSign multiprecision_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns, int bits) {
+  return product_of<Ball<robust::Mpfr>>(fan, bits).compare(quarter_turns);
+}
+
+MaybeSign exact_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
+  return exact_with_roots(fan, quarter_turns, kMostAngleRoots);
+}
+
+AngleDecision compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
+  if (const auto sign = double_double_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::double_double};
+  if (const auto sign = exact_with_roots(fan, quarter_turns, 1)) return {sign, Stage::algebra};
+  for (const int bits : kBits) {
+    if (const auto sign = multiprecision_compare_angle_sum(fan, quarter_turns, bits)) return {sign, Stage::mpfr};
+  }
+  if (const auto sign = exact_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::algebra};
+  return {std::nullopt, Stage::undecided};
+}
+
+}  // namespace gvd::predicates
