@@ -1,0 +1,113 @@
+#include "contenders.hpp"
+
+#include <algorithm>
+
+namespace gvd::kernel {
+namespace {
+
+using predicates::Predicate;
+using robust::Sign;
+
+/// Whether the points are certainly different, as far as doubles can tell.
+bool separated(const predicates::PlanePoint<FacetLadder::F>& a, const predicates::PlanePoint<FacetLadder::F>& b) {
+  return maybe_sign(a.x - b.x).value_or(Sign::zero) != Sign::zero || maybe_sign(a.y - b.y).value_or(Sign::zero) != Sign::zero;
+}
+
+}  // namespace
+
+Contenders::Contenders(FacetWaves& waves, FacetLadder& ladder) : waves_(waves) {
+  list_.reserve(waves.sites.size());
+  for (std::uint32_t i = 0; i < waves.sites.size(); ++i) {
+    const FacetSite& site = waves.sites[i];
+    Contender c;
+    c.site = i;
+    c.corner = site.corner;
+    c.entry = site.corner == FacetSite::kNoCorner ? static_cast<std::uint8_t>(1u << site.side) : 0;
+    c.root = site.root;
+    c.has_cone = ladder.filter().sites[i]->has_cone;
+    if (c.has_cone) {
+      c.cone = site.cone;
+      c.attains_cone = site.attains_cone;
+      c.cone_site = {i, i};
+    }
+    c.attains_corner = site.attains_corner;
+    list_.push_back(c);
+  }
+  merge_same_images(ladder);
+  find_tangencies(ladder);
+}
+
+std::string Contenders::name(std::size_t i) const {
+  return "site " + std::to_string(list_[i].site) + " (root " + std::to_string(list_[i].root) + ")";
+}
+
+/// The image is one for windows that pass a flat corner of the facet on either side: identity. Elsewhere it takes the exact numbers.
+bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const {
+  if (separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image)) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool round_corner = left.cone[1] == waves_.corner[k] && right.cone[0] == waves_.corner[k];
+    if (round_corner && waves_.corner_is_flat[k] && left.attains_corner[k] && right.attains_corner[k]) {
+      ladder.count(Predicate::edge_tie, robust::Stage::identity);
+      return true;
+    }
+  }
+  const auto same = ladder.for_each_stage([&](const auto& numbers, robust::Stage) -> std::optional<bool> {
+    const auto &a = numbers.sites[left.site]->image, &b = numbers.sites[right.site]->image;
+    const robust::MaybeSign x = maybe_sign(a.x - b.x), y = maybe_sign(a.y - b.y);
+    if (x.value_or(Sign::zero) != Sign::zero || y.value_or(Sign::zero) != Sign::zero) return false;
+    if (!x || !y) return std::nullopt;
+    return true;
+  });
+  return same.value_or(false);  // two contenders that nobody can tell apart: whatever depends on it will be undecided
+}
+
+/// Whether the right boundary ray of one cone is the left one of the other.
+bool Contenders::touching(FacetLadder& ladder, const Contender& left, const Contender& right) const {
+  if (left.cone[1] == right.cone[0]) return true;
+  const auto sign = ladder.for_each_stage([&](const auto& numbers, robust::Stage) {
+    const auto& image = numbers.sites[left.site]->image;
+    return maybe_sign(predicates::orientation(image, numbers.sites[left.cone_site[1]]->cone[1], numbers.sites[right.cone_site[0]]->cone[0]));
+  });
+  return sign == Sign::zero;
+}
+
+void Contenders::merge_same_images(FacetLadder& ladder) {
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    for (std::size_t j = 0; j < list_.size(); ++j) {
+      Contender &left = list_[i], &right = list_[j];
+      if (i == j || !left.has_cone || !right.has_cone || left.root != right.root) continue;
+      if (!same_image(ladder, left, right) || !touching(ladder, left, right)) continue;
+      left.cone[1] = right.cone[1];
+      left.attains_cone[1] = right.attains_cone[1];
+      left.cone_site[1] = right.cone_site[1];
+      left.entry |= right.entry;
+      left.site = std::min(left.site, right.site);
+      for (std::size_t k = 0; k < 3; ++k) left.attains_corner[k] = left.attains_corner[k] || right.attains_corner[k];
+      list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(j));
+      i = static_cast<std::size_t>(-1);  // start again: the merged cone may touch another
+      break;
+    }
+  }
+}
+
+void Contenders::find_tangencies(FacetLadder& ladder) {
+  const std::size_t n = list_.size();
+  tangent_.assign(n * n, kNotTangent);
+  for (std::size_t p = 0; p < n; ++p) {
+    const Contender& parent = list_[p];
+    if (!parent.has_cone) continue;
+    for (std::size_t r = 0; r < n; ++r) {
+      if (r == p) continue;
+      const Contender& relay = list_[r];
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (relay.root != parent.cone[end] || !parent.attains_cone[end]) continue;
+        const auto& sites = ladder.filter().sites;
+        if (separated(sites[relay.site]->image, sites[parent.cone_site[end]]->cone[end])) continue;  // it went another way round
+        if (relay.corner == FacetSite::kNoCorner && !waves_.is_own_relay(parent.cone_site[end], relay.site)) continue;
+        tangent_[p * n + r] = static_cast<signed char>(end);
+      }
+    }
+  }
+}
+
+}  // namespace gvd::kernel

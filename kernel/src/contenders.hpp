@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "facet_ladder.hpp"
+#include "gvd/predicates/wave.hpp"
+
+namespace gvd::kernel {
+
+/// A wave that competes for the facet: a site, or several windows of one root with the same image whose cones touch, as one.
+struct Contender {
+  std::uint32_t site = 0;      ///< index in FacetWaves::sites; the lowest of those merged
+  std::uint8_t entry = 0;      ///< bit k: comes in over side k
+  std::uint8_t corner = FacetSite::kNoCorner;
+  VertexId root = kNone;
+  bool has_cone = false;
+  /// Per end of the cone: its vertex, whether it is attained, and the site whose boundary ray it is.
+  std::array<VertexId, 2> cone{kNone, kNone};
+  std::array<bool, 2> attains_cone{false, false};
+  std::array<std::uint32_t, 2> cone_site{0, 0};
+  std::array<bool, 3> attains_corner{false, false, false};
+
+  bool enters_over(std::size_t side) const { return (entry >> side & 1) != 0; }
+  /// Whether the wave is known to attain D at vertex v of the mesh; v may be a corner of the facet or bound the cone.
+  bool attains(const FacetWaves& waves, VertexId v) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (waves.corner[k] == v && attains_corner[k]) return true;
+    return (cone[0] == v && attains_cone[0]) || (cone[1] == v && attains_cone[1]);
+  }
+};
+
+/// Positive strictly inside the boundary ray `end` of the contender's cone, zero on it, negative outside.
+template <class NT>
+NT cone_side(const FacetNumbers<NT>& numbers, const Contender& c, std::size_t end, const predicates::PlanePoint<NT>& p) {
+  return predicates::cone_side(*numbers.sites[c.cone_site[end]], end, p);
+}
+
+/// The contenders of a facet and their tangencies.
+class Contenders {
+ public:
+  static constexpr int kNotTangent = -1;
+
+  /// Merges windows of the same image. On failure `ladder.failed()`.
+  Contenders(FacetWaves& waves, FacetLadder& ladder);
+
+  std::size_t size() const { return list_.size(); }
+  const Contender& operator[](std::size_t i) const { return list_[i]; }
+  /// The end of the parent's cone at which `relay` starts (then the two tie exactly on that ray, and inside the parent's cone the parent
+  /// is nearer), or kNotTangent.
+  int tangent_end(std::size_t parent, std::size_t relay) const { return tangent_[parent * list_.size() + relay]; }
+  bool tangent(std::size_t a, std::size_t b) const { return tangent_end(a, b) != kNotTangent || tangent_end(b, a) != kNotTangent; }
+  std::string name(std::size_t i) const;
+
+ private:
+  void merge_same_images(FacetLadder& ladder);
+  bool same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const;
+  bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
+  void find_tangencies(FacetLadder& ladder);
+
+  FacetWaves& waves_;
+  std::vector<Contender> list_;
+  std::vector<signed char> tangent_;
+};
+
+}  // namespace gvd::kernel

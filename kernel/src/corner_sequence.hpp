@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contenders.hpp"
+
+namespace gvd::kernel {
+
+/// The order of the waves round the corners of a facet: which regions meet there, by direction.
+class CornerOrder {
+ public:
+  CornerOrder(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder)
+      : waves_(waves), contenders_(contenders), ladder_(ladder) {}
+
+  /// The contenders whose regions have corner c as a corner with a positive angle, from the direction of the side that starts at c
+  /// counter-clockwise to that of the side that ends there. Empty on failure.
+  std::vector<std::uint32_t> sequence(std::size_t c);
+
+  enum class Direction { outgoing, incoming };  ///< along the side that starts at the corner, or back along the one that ends there
+  /// Which of two contenders that tie at corner c is nearer right beside it in that direction, cones aside: positive if p is, zero if
+  /// they tie along the whole side. Empty on failure.
+  robust::MaybeSign nearer_beside(std::size_t c, Direction direction, std::uint32_t p, std::uint32_t q);
+
+ private:
+  /// The attaining contenders by where they come from: right = over the outgoing side, left = over the incoming one.
+  struct Tied {
+    std::optional<std::uint32_t> own, right, left;
+    std::vector<std::uint32_t> middle;
+  };
+  Tied tied_at(std::size_t c);
+  std::optional<bool> shadow_is_open(std::size_t c, const Tied& tied);
+  robust::MaybeSign turn(std::size_t c, std::uint32_t p, std::uint32_t q);
+  robust::MaybeSign ray_enters(std::size_t c, std::uint32_t p, Direction far_side);
+  std::vector<std::uint32_t> envelope(std::size_t c, const std::vector<std::uint32_t>& sorted, const Tied& tied);
+  std::string describe(std::size_t c, std::uint32_t p, std::uint32_t q, const char* what) const;
+
+  FacetWaves& waves_;
+  const Contenders& contenders_;
+  FacetLadder& ladder_;
+};
+
+}  // namespace gvd::kernel

@@ -1,0 +1,313 @@
+#include "outline.hpp"
+
+#include <algorithm>
+
+namespace gvd::kernel {
+namespace {
+
+using predicates::Existence;
+using predicates::Predicate;
+using predicates::operator-;
+using robust::MaybeSign;
+using robust::Sign;
+using Node = FacetTessellation::Node;
+using Piece = FacetTessellation::Piece;
+
+}  // namespace
+
+std::string OutlineWalk::describe(std::size_t side, const Event& event, const char* what) const {
+  return std::string(what) + " on side " + std::to_string(side) + ", " + contenders_.name(event.from) + " to " +
+         contenders_.name(event.to);
+}
+
+std::uint32_t OutlineWalk::add_node(Node node) {
+  result_.nodes.push_back(std::move(node));
+  return static_cast<std::uint32_t>(result_.nodes.size() - 1);
+}
+
+void OutlineWalk::enter(std::uint32_t node, std::uint32_t contender) {
+  list_.back().node_after = node;
+  list_.push_back({contender, Piece::kNoNode});
+}
+
+std::vector<Occurrence> OutlineWalk::walk() {
+  std::array<std::vector<std::uint32_t>, 3> at_corner;
+  for (std::size_t c = 0; c < 3; ++c) {
+    at_corner[c] = corners_.sequence(c);
+    if (ladder_.failed()) return {};
+  }
+  list_.push_back({at_corner[0].back(), Piece::kNoNode});
+  for (std::size_t side = 0; side < 3; ++side) {
+    if (!pass_corner(side, at_corner[side])) return {};
+    if (!walk_side(side, at_corner[(side + 1) % 3].back())) return {};
+  }
+  if (list_.size() > 1) list_.pop_back();  // the walk has come back to the first occurrence
+  return std::move(list_);
+}
+
+bool OutlineWalk::pass_corner(std::size_t c, const std::vector<std::uint32_t>& sequence) {
+  if (sequence.size() == 1) return true;
+  Node node;
+  node.kind = Node::Kind::corner;
+  node.where = static_cast<std::uint8_t>(c);
+  for (const std::uint32_t wave : sequence) node.sites.push_back(contenders_[wave].site);
+  const auto at = predicates::corner_point(*ladder_.filter().frame, c);
+  node.x = at.x;
+  node.y = at.y;
+  const std::uint32_t id = add_node(std::move(node));
+  for (std::size_t i = sequence.size() - 1; i-- > 0;) enter(id, sequence[i]);
+  return true;
+}
+
+bool OutlineWalk::walk_side(std::size_t side, std::uint32_t last) {
+  std::optional<Event> previous;
+  std::uint32_t from_node = Piece::kNoNode;
+  for (;;) {
+    const std::uint32_t current = list_.back().contender;
+    const auto events = next_events(side, current, previous);
+    if (!events) return false;
+    const bool ends = events->empty();
+    if (!ends && !pass_event(side, *events)) return false;
+    const std::uint32_t to_node = ends ? Piece::kNoNode : static_cast<std::uint32_t>(result_.nodes.size() - 1);
+    result_.outline.push_back({static_cast<std::uint8_t>(side), contenders_[current].site, from_node, to_node});
+    if (ends) {
+      if (current == last) return true;
+      ladder_.fail(Predicate::edge_tie, describe(side, {current, last}, "the walk ends in another wave than the corner's"));
+      return false;
+    }
+    from_node = to_node;
+    previous = (*events)[0];
+    previous->to = list_.back().contender;
+    for (const Event& event : *events)
+      if (event.to == previous->to) previous = event;
+  }
+}
+
+/// The waves that take over from `from` first after `previous`; several if they do so at the same point.
+std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::size_t side, std::uint32_t from,
+                                                                        const std::optional<Event>& previous) {
+  std::vector<Event> first;
+  for (std::uint32_t to = 0; to < contenders_.size(); ++to) {
+    if (to == from) continue;
+    const std::optional<Event> event = candidate(side, from, to);
+    if (!event) {
+      if (ladder_.failed()) return std::nullopt;
+      continue;
+    }
+    const std::optional<bool> real = happens(side, *event, previous);
+    if (!real) return std::nullopt;
+    if (!*real) continue;
+    const MaybeSign order = first.empty() ? Sign::negative : compare(side, *event, first[0]);
+    if (!order) return std::nullopt;
+    if (*order == Sign::negative) first.clear();
+    if (*order != Sign::positive) first.push_back(*event);
+  }
+  return first;
+}
+
+/// What would have to happen for `to` to take over from `from` on the side, if identity does not exclude it.
+std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::uint32_t from, std::uint32_t to) {
+  const int leaves = contenders_.tangent_end(from, to), arrives = contenders_.tangent_end(to, from);
+  if (leaves == Contenders::kNotTangent && arrives == Contenders::kNotTangent) {
+    const Event event{from, to};
+    if (tie_is_at_corner(side, event)) return std::nullopt;
+    return event;
+  }
+  // A parent wins up to its boundary ray. Along the side over which it comes in, the cone begins at ray 0 and ends at ray 1; along the others
+  // the other way round.
+  const bool relay_takes_over = leaves != Contenders::kNotTangent;
+  const std::uint32_t parent = relay_takes_over ? from : to, relay = relay_takes_over ? to : from;
+  const int end = relay_takes_over ? leaves : arrives;
+  const bool last_ray = end == (contenders_[parent].enters_over(side) ? 1 : 0);
+  if (last_ray != relay_takes_over) return std::nullopt;
+  const std::uint8_t corner = contenders_[relay].corner;
+  if (corner == side || corner == (side + 1) % 3) return std::nullopt;  // the ray meets this side in its corner only
+  return Event{from, to, contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end)};
+}
+
+/// Two waves that tie at an end of the side by identity: whether the place where `to` overtakes `from` is that end.
+bool OutlineWalk::tie_is_at_corner(std::size_t side, const Event& event) {
+  const std::size_t start = side, end = (side + 1) % 3;
+  const Contender &from = contenders_[event.from], &to = contenders_[event.to];
+  if (from.attains_corner[start] && to.attains_corner[start]) {
+    // A corner's own distance never grows slower than another's: it cannot overtake, nor be overtaken later.
+    if (from.corner == start || to.corner == start) return true;
+    if (corners_.nearer_beside(start, CornerOrder::Direction::outgoing, event.from, event.to) != Sign::positive) return true;
+  }
+  if (from.attains_corner[end] && to.attains_corner[end]) {
+    if (from.corner == end || to.corner == end) return true;
+    if (corners_.nearer_beside(end, CornerOrder::Direction::incoming, event.from, event.to) != Sign::negative) return true;
+  }
+  return ladder_.failed();
+}
+
+template <class NT>
+predicates::SideTie<NT> OutlineWalk::parameter(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event) const {
+  if (event.ray != FacetTessellation::kNoSite) {
+    const auto& window = *numbers.sites[event.ray];
+    return {Existence::proved, predicates::ray_meeting(numbers.side[side], window.image, window.cone[event.ray_end])};
+  }
+  const Contender &from = contenders_[event.from], &to = contenders_[event.to];
+  auto tie = predicates::overtaking(numbers.side[side], *numbers.sites[from.site], *numbers.sites[to.site], from.root == to.root);
+  if (tie.existence != Existence::proved) tie.t = NT(0.0) / NT(0.0);  // nothing is known
+  return tie;
+}
+
+template <class NT>
+std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event,
+                                                           const std::optional<Event>& previous) const {
+  const predicates::SideTie<NT> tie = parameter(numbers, side, event);
+  if (tie.existence == Existence::impossible) return Answer::no;
+  if (tie.existence == Existence::open) return std::nullopt;
+  bool open = false, on_ray = false;
+  const auto excludes = [&](const NT& x) {
+    const MaybeSign sign = maybe_sign(x);
+    if (!sign) open = true;
+    return sign && *sign != Sign::positive;
+  };
+  if (excludes(tie.t) || excludes(NT(1.0) - tie.t)) return Answer::no;
+  const Contender& to = contenders_[event.to];
+  if (to.has_cone) {
+    const auto p = predicates::point_at(numbers.side[side], tie.t);
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (event.ray == to.cone_site[end] && event.ray_end == end) continue;  // on that ray by identity
+      const MaybeSign inside = maybe_sign(cone_side(numbers, to, end, p));
+      if (inside == Sign::negative) return Answer::no;
+      if (inside == Sign::zero) on_ray = true;
+      if (!inside) open = true;
+    }
+  }
+  if (previous) {
+    const predicates::SideTie<NT> before = parameter(numbers, side, *previous);
+    if (before.existence != Existence::proved)
+      open = true;
+    else if (excludes(tie.t - before.t))
+      return Answer::no;
+  }
+  if (open) return std::nullopt;
+  return on_ray ? Answer::degenerate : Answer::yes;
+}
+
+std::optional<bool> OutlineWalk::happens(std::size_t side, const Event& event, const std::optional<Event>& previous) {
+  const auto answer = ladder_.decide(
+      Predicate::edge_tie, [&](const auto& numbers) { return happens_in(numbers, side, event, previous); },
+      [&] { return describe(side, event, "overtaking"); });
+  if (!answer) return std::nullopt;
+  if (*answer == Answer::degenerate) {
+    ladder_.fail(Predicate::edge_tie, describe(side, event, "a tie on the boundary ray of a cone"));
+    return std::nullopt;
+  }
+  return *answer == Answer::yes;
+}
+
+MaybeSign OutlineWalk::compare(std::size_t side, const Event& a, const Event& b) {
+  const auto test = [&](const auto& numbers) -> MaybeSign {
+    const auto ta = parameter(numbers, side, a), tb = parameter(numbers, side, b);
+    if (ta.existence != Existence::proved || tb.existence != Existence::proved) return std::nullopt;
+    return maybe_sign(ta.t - tb.t);
+  };
+  return ladder_.decide(Predicate::edge_tie, test, [&] { return describe(side, a, "order") + " and " + contenders_.name(b.to); });
+}
+
+bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
+  std::vector<std::uint32_t> ahead{tied[0].to, tied[0].from};
+  if (tied.size() > 1) {
+    auto order = order_inward(side, tied);
+    if (!order) return false;
+    ahead = std::move(*order);
+  }
+  const auto defining = std::find_if(tied.begin(), tied.end(), [&](const Event& event) { return event.to == ahead[0]; });
+  if (defining == tied.end()) {
+    ladder_.fail(Predicate::edge_tie, describe(side, tied[0], "the order of waves that tie at a point"));
+    return false;
+  }
+  Node node;
+  node.kind = Node::Kind::side;
+  node.where = static_cast<std::uint8_t>(side);
+  for (const std::uint32_t wave : ahead) node.sites.push_back(contenders_[wave].site);
+  node.defining = {contenders_[defining->from].site, contenders_[defining->to].site, FacetTessellation::kNoSite};
+  node.ray = defining->ray;
+  node.ray_end = defining->ray_end;
+  const auto& numbers = ladder_.filter();
+  node.t = parameter(numbers, side, *defining).t;
+  const auto p = predicates::point_at(numbers.side[side], node.t);
+  node.x = p.x;
+  node.y = p.y;
+  const std::uint32_t id = add_node(std::move(node));
+  for (std::size_t i = ahead.size() - 1; i-- > 0;) enter(id, ahead[i]);
+  return true;
+}
+
+/// Several waves tie at one point of the side: those that are nearest in some direction into the facet, counter-clockwise from the direction in
+/// which the outline goes on. In direction e, the one whose unit vector u to its image has the greatest e.u.
+std::optional<std::vector<std::uint32_t>> OutlineWalk::order_inward(std::size_t side, const std::vector<Event>& tied) {
+  std::vector<std::uint32_t> waves{tied[0].from};
+  for (const Event& event : tied) waves.push_back(event.to);
+  const auto what = [&] { return describe(side, tied[0], "the order of waves that tie at a point"); };
+  for (const std::uint32_t p : waves) {
+    for (const std::uint32_t q : waves) {
+      if (contenders_.tangent_end(p, q) == Contenders::kNotTangent) continue;  // their directions are one, so directions cannot tell
+      ladder_.fail(Predicate::edge_tie, what());
+      return std::nullopt;
+    }
+  }
+  // (u_p - u_q) times a positive factor, in the coordinates (along the side, into the facet)
+  const auto difference = [&](const auto& numbers, std::uint32_t p, std::uint32_t q) {
+    const auto& line = numbers.side[side];
+    const auto at = predicates::point_at(line, parameter(numbers, side, tied[0]).t);
+    const auto to_p = numbers.sites[contenders_[p].site]->image - at, to_q = numbers.sites[contenders_[q].site]->image - at;
+    const auto rp = sqrt(squared_norm(to_p)), rq = sqrt(squared_norm(to_q));
+    using Point = std::decay_t<decltype(to_p)>;
+    const Point d{to_p.x * rq - to_q.x * rp, to_p.y * rq - to_q.y * rp};
+    return Point{dot(line.direction, d), cross(line.direction, d)};
+  };
+  const auto along = [&](std::uint32_t p, std::uint32_t q, bool inward) {
+    return ladder_.decide(
+        Predicate::edge_tie,
+        [&](const auto& numbers) {
+          const auto d = difference(numbers, p, q);
+          return maybe_sign(inward ? d.y : d.x);
+        },
+        what);
+  };
+  // The nearest in the direction of the side, by the direction into the facet if equal.
+  std::uint32_t current = waves[0];
+  for (std::size_t i = 1; i < waves.size(); ++i) {
+    MaybeSign better = along(waves[i], current, false);
+    if (better == Sign::zero) better = along(waves[i], current, true);
+    if (!better) return std::nullopt;
+    if (*better == Sign::positive) current = waves[i];
+  }
+  std::vector<std::uint32_t> order{current};
+  // Turning counter-clockwise, q takes over from p in the direction u_q - u_p turned by a right angle clockwise: (y, -x).
+  for (;;) {
+    std::optional<std::uint32_t> next;
+    for (const std::uint32_t q : waves) {
+      if (q == current || along(current, q, false) != Sign::positive) {
+        if (ladder_.failed()) return std::nullopt;
+        continue;
+      }
+      MaybeSign sooner = Sign::positive;
+      if (next) {
+        sooner = ladder_.decide(
+            Predicate::edge_tie,
+            [&](const auto& numbers) {
+              return maybe_sign(cross(difference(numbers, q, current), difference(numbers, *next, current)));
+            },
+            what);
+      }
+      if (!sooner) return std::nullopt;
+      if (*sooner == Sign::positive) next = q;
+    }
+    if (!next) break;
+    current = *next;
+    order.push_back(current);
+  }
+  if (order.back() != tied[0].from) {
+    ladder_.fail(Predicate::edge_tie, what());
+    return std::nullopt;
+  }
+  return order;
+}
+
+}  // namespace gvd::kernel

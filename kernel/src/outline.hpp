@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contenders.hpp"
+#include "corner_sequence.hpp"
+#include "gvd/kernel/tessellation.hpp"
+
+namespace gvd::kernel {
+
+/// A contender's stretch of the outline of what is not yet tessellated, and the node where the next stretch begins.
+struct Occurrence {
+  std::uint32_t contender = 0;
+  std::uint32_t node_after = FacetTessellation::Piece::kNoNode;
+};
+
+/// Walks round the facet: what lies just inside it along its outline.
+class OutlineWalk {
+ public:
+  OutlineWalk(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder, FacetTessellation& result)
+      : waves_(waves), contenders_(contenders), ladder_(ladder), corners_(waves, contenders, ladder), result_(result) {}
+
+  /// The cyclic list of occurrences, counter-clockwise; a single one has no node. Fills result.outline and the nodes of corners and sides.
+  /// Empty on failure.
+  std::vector<Occurrence> walk();
+
+ private:
+  /// A place on a side where `to` takes over from `from`.
+  struct Event {
+    std::uint32_t from, to;
+    std::uint32_t ray = FacetTessellation::kNoSite;  ///< site whose boundary ray crosses the side there, if they are tangent
+    std::uint8_t ray_end = 0;
+  };
+  enum class Answer { no, yes, degenerate };
+
+  bool pass_corner(std::size_t c, const std::vector<std::uint32_t>& sequence);
+  bool walk_side(std::size_t side, std::uint32_t last);
+  bool pass_event(std::size_t side, const std::vector<Event>& tied);
+  std::optional<std::vector<Event>> next_events(std::size_t side, std::uint32_t from, const std::optional<Event>& previous);
+  std::optional<Event> candidate(std::size_t side, std::uint32_t from, std::uint32_t to);
+  bool tie_is_at_corner(std::size_t side, const Event& event);
+  std::optional<bool> happens(std::size_t side, const Event& event, const std::optional<Event>& previous);
+  template <class NT>
+  std::optional<Answer> happens_in(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event,
+                                   const std::optional<Event>& previous) const;
+  template <class NT>
+  predicates::SideTie<NT> parameter(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event) const;
+  robust::MaybeSign compare(std::size_t side, const Event& a, const Event& b);
+  std::optional<std::vector<std::uint32_t>> order_inward(std::size_t side, const std::vector<Event>& tied);
+
+  std::uint32_t add_node(FacetTessellation::Node node);
+  void enter(std::uint32_t node, std::uint32_t contender);
+  std::string describe(std::size_t side, const Event& event, const char* what) const;
+
+  FacetWaves& waves_;
+  const Contenders& contenders_;
+  FacetLadder& ladder_;
+  CornerOrder corners_;
+  FacetTessellation& result_;
+  std::vector<Occurrence> list_;
+};
+
+}  // namespace gvd::kernel

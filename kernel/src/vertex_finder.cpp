@@ -1,0 +1,248 @@
+#include "vertex_finder.hpp"
+
+#include <algorithm>
+
+namespace gvd::kernel {
+
+using predicates::BisectorVertex;
+using predicates::Existence;
+using predicates::PlanePoint;
+using predicates::Predicate;
+using predicates::operator+;
+using predicates::operator-;
+using robust::MaybeSign;
+using robust::Sign;
+using robust::Stage;
+
+void BisectorVertices::set_rivals(const std::vector<std::uint32_t>& rivals) {
+  rivals_ = rivals;
+  rank_.assign(contenders_.size(), 0);
+  for (std::uint32_t r = 0; r < rivals_.size(); ++r) rank_[rivals_[r]] = r;
+  remembered_.assign(rivals_.size() * rivals_.size() * rivals_.size(), 0);
+  found_.reserve(remembered_.size() / 3);  // pointers to them are handed out
+}
+
+BisectorVertices::Found* BisectorVertices::find(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+  // The same vertex whatever the turn of the triple: begin with the lowest.
+  while (i > j || i > k) {
+    std::swap(i, j);
+    std::swap(j, k);
+  }
+  const std::size_t n = rivals_.size();
+  std::int32_t& entry = remembered_[(rank_[i] * n + rank_[j]) * n + rank_[k]];
+  if (entry == 0) {
+    found_.emplace_back();
+    entry = static_cast<std::int32_t>(found_.size());
+    if (const auto spec = triple(i, j, k)) examine(*spec, found_.back());
+  }
+  return ladder_.failed() ? nullptr : &found_[static_cast<std::size_t>(entry - 1)];
+}
+
+/// Empty if identity excludes a vertex. The boundary ray of a parent through its cone vertex 0 has the relay on its left, through 1 on its
+/// right; both tie along it until a third wave takes over, so the ray ends in a vertex (relay, parent, third) or (parent, relay, third), and
+/// never begins in one.
+std::optional<BisectorVertices::Triple> BisectorVertices::triple(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+  Triple result{{i, j, k}, false, j, 0, 0, 0};
+  int tangent_pairs = 0;
+  const std::array<std::uint32_t, 3> w{i, j, k};
+  for (std::size_t first = 0; first < 3; ++first) {
+    const std::uint32_t a = w[first], b = w[(first + 1) % 3], third = w[(first + 2) % 3];
+    for (const bool relay_first : {true, false}) {
+      const std::uint32_t relay = relay_first ? a : b, parent = relay_first ? b : a;
+      const int end = contenders_.tangent_end(parent, relay);
+      if (end == Contenders::kNotTangent) continue;
+      ++tangent_pairs;  // two of them: the rays leave one point in different directions
+      if (tangent_pairs > 1 || (end == 0) != relay_first) return std::nullopt;
+      if (contenders_[third].attains(waves_, contenders_[relay].root)) return std::nullopt;  // the vertex would be the relay itself
+      result.on_ray = true;
+      result.pivot = relay;
+      result.other = third;
+      result.parent = parent;
+      result.ray_end = static_cast<std::uint8_t>(end);
+    }
+  }
+  if (!result.on_ray) {  // a pivot with an equal weight makes a simpler formula
+    const auto root = [&](std::size_t n) { return contenders_[w[n]].root; };
+    const std::size_t pivot = root(1) == root(0) || root(1) == root(2) || root(0) != root(2) ? 1 : 2;
+    result.waves = {w[(pivot + 2) % 3], w[pivot], w[(pivot + 1) % 3]};
+    result.pivot = w[pivot];
+  }
+  return result;
+}
+
+template <class NT>
+BisectorVertex<NT> BisectorVertices::construct(const FacetNumbers<NT>& numbers, const Triple& t) const {
+  const auto site = [&](std::uint32_t wave) { return contenders_[wave].site; };
+  if (t.on_ray)
+    return vertex_on_ray(waves_, numbers, contenders_[t.parent].cone_site[t.ray_end], site(t.pivot), site(t.other));
+  return vertex_of(waves_, numbers, site(t.waves[0]), site(t.waves[1]), site(t.waves[2]));
+}
+
+template <class NT>
+BisectorVertices::Verdict BisectorVertices::conflict(const FacetNumbers<NT>& numbers, const Triple& t, const BisectorVertex<NT>& vertex,
+                                                     const PlanePoint<NT>& p, std::uint32_t rival) const {
+  const Contender& wave = contenders_[rival];
+  std::array<MaybeSign, 2> inside{Sign::positive, Sign::positive};
+  const auto look = [&] {  // whether the rival sees p
+    for (std::size_t end = 0; wave.has_cone && end < 2; ++end) inside[end] = maybe_sign(cone_side(numbers, wave, end, p));
+    return inside[0] != Sign::negative && inside[1] != Sign::negative;
+  };
+  for (const std::uint32_t own : t.waves)  // behind the boundary ray of one of the three, which strictly sees p: never nearer
+    if (contenders_.tangent_end(own, rival) != Contenders::kNotTangent) return Verdict::pass;
+  for (const std::uint32_t own : t.waves) {
+    const int end = contenders_.tangent_end(rival, own);
+    if (end == Contenders::kNotTangent) continue;
+    // The parent of one of the three is nearer strictly inside its cone, equal on the ray.
+    if (!look()) return Verdict::pass;
+    if (!inside[0] || !inside[1]) return Verdict::open;
+    return inside[static_cast<std::size_t>(end)] == Sign::positive ? Verdict::reject : Verdict::tie;
+  }
+  const auto relative = relative_wave(waves_, numbers, contenders_[t.pivot].site, wave.site);
+  const MaybeSign excess = maybe_sign(predicates::lifted_excess(relative, vertex));
+  if (excess == Sign::negative) return Verdict::pass;
+  if (!look()) return Verdict::pass;
+  // excess >= 0: |p - image| <= |rho - s|, which is a conflict or a tie only if rho - s is not negative
+  const MaybeSign reach = maybe_sign(vertex.rho - relative.s);
+  if (reach == Sign::negative) return Verdict::pass;
+  if (!excess || !reach || !inside[0] || !inside[1]) return Verdict::open;
+  return excess == Sign::positive ? Verdict::reject : Verdict::tie;
+}
+
+template <class NT>
+BisectorVertices::Verdict BisectorVertices::test(const FacetNumbers<NT>& numbers, const Triple& t, const BisectorVertex<NT>& vertex,
+                                                 const PlanePoint<NT>& p, std::uint32_t what) const {
+  if (what == kExistence) return Verdict::pass;
+  if (what >= kRivals) return conflict(numbers, t, vertex, p, what - kRivals);
+  if (what < kCones) {
+    const auto& side = numbers.side[what - kSides];
+    const MaybeSign inside = maybe_sign(cross(side.direction, p - side.origin));
+    if (!inside) return Verdict::open;
+    return *inside == Sign::positive ? Verdict::pass : Verdict::reject;  // on the outline: the walk has seen it
+  }
+  const std::uint32_t wave = t.waves[(what - kCones) / 2], end = (what - kCones) % 2;
+  if (!contenders_[wave].has_cone) return Verdict::pass;
+  if (t.on_ray && wave == t.parent && end == t.ray_end) return Verdict::pass;  // on the ray by identity
+  const MaybeSign inside = maybe_sign(cone_side(numbers, contenders_[wave], end, p));
+  if (!inside) return Verdict::open;
+  if (*inside == Sign::zero) return Verdict::degenerate;
+  return *inside == Sign::positive ? Verdict::pass : Verdict::reject;
+}
+
+Predicate BisectorVertices::predicate_of(std::uint32_t what) {
+  if (what == kExistence) return Predicate::bisector_vertex;
+  if (what < kCones) return Predicate::location;
+  return what < kRivals ? Predicate::cone_membership : Predicate::conflict;
+}
+
+std::string BisectorVertices::describe(const Triple& t, std::uint32_t what) const {
+  std::string text = "vertex of " + contenders_.name(t.waves[0]) + ", " + contenders_.name(t.waves[1]) + ", " + contenders_.name(t.waves[2]);
+  if (what == kExistence) return text + ": whether there is one";
+  if (what < kCones) return text + ": against side " + std::to_string(what - kSides);
+  if (what < kRivals) return text + ": boundary ray of the cone of " + contenders_.name(t.waves[(what - kCones) / 2]);
+  return text + ": conflict with " + contenders_.name(what - kRivals);
+}
+
+/// Runs the pending tests in one number type and drops those that pass. False if one of them rejects the vertex.
+template <class NT>
+bool BisectorVertices::run_tests(const FacetNumbers<NT>& numbers, Stage stage, const Triple& t) {
+  const BisectorVertex<NT> vertex = construct(numbers, t);
+  if (vertex.existence == Existence::open) return true;
+  if (vertex.existence == Existence::impossible) {
+    ladder_.count(predicate_of(kExistence), stage);
+    return false;
+  }
+  const PlanePoint<NT> p = vertex.p + numbers.sites[contenders_[t.pivot].site]->image;
+  std::size_t kept = 0;
+  for (const std::uint32_t what : pending_) {
+    const Verdict verdict = test(numbers, t, vertex, p, what);
+    if (verdict == Verdict::open) {
+      pending_[kept++] = what;
+      continue;
+    }
+    ladder_.count(predicate_of(what), stage);
+    if (verdict == Verdict::reject) return false;
+    if (verdict == Verdict::tie) ties_.push_back(what - kRivals);
+    if (verdict == Verdict::degenerate) {
+      ladder_.fail(predicate_of(what), describe(t, what) + " passes through it");
+      return false;
+    }
+  }
+  pending_.resize(kept);
+  return true;
+}
+
+void BisectorVertices::examine(const Triple& t, Found& found) {
+  pending_.clear();
+  ties_.clear();
+  for (std::uint32_t what = 0; what < kRivals; ++what) {
+    const bool cone = what >= kCones;
+    if (!cone || contenders_[t.waves[(what - kCones) / 2]].has_cone) pending_.push_back(what);
+  }
+  for (const std::uint32_t rival : rivals_)
+    if (rival != t.waves[0] && rival != t.waves[1] && rival != t.waves[2]) pending_.push_back(kRivals + rival);
+
+  const auto& numbers = ladder_.filter();
+  bool holds = run_tests(numbers, Stage::filter, t);
+  if (holds && !pending_.empty()) {
+    const auto finished = ladder_.for_each_stage([&](const auto& finer, Stage stage) -> std::optional<bool> {
+      if (!run_tests(finer, stage, t)) return false;
+      return pending_.empty() ? std::optional(true) : std::nullopt;
+    });
+    if (!finished) {
+      if (!ladder_.failed()) ladder_.fail(predicate_of(pending_[0]), describe(t, pending_[0]));
+      return;
+    }
+    holds = *finished;
+  }
+  if (!holds) return;
+
+  found.exists = true;
+  found.ties = {t.waves[0], t.waves[1], t.waves[2]};
+  if (!ties_.empty() && !order_ties(t, found.ties)) return;
+  found.node.kind = FacetTessellation::Node::Kind::inside;
+  for (const std::uint32_t wave : found.ties) found.node.sites.push_back(contenders_[wave].site);
+  if (t.on_ray) {
+    found.node.defining = {contenders_[t.pivot].site, contenders_[t.other].site, FacetTessellation::kNoSite};
+    found.node.ray = contenders_[t.parent].cone_site[t.ray_end];
+    found.node.ray_end = t.ray_end;
+  } else {
+    for (std::size_t n = 0; n < 3; ++n) found.node.defining[n] = contenders_[t.waves[n]].site;
+  }
+  const auto p = node_point(waves_, numbers, found.node);
+  found.node.x = p.x;
+  found.node.y = p.y;
+}
+
+/// Inserts the waves that tie with the three (ties_) by direction: l lies between a and b iff the unit vectors u_a, u_l, u_b to the
+/// images are counter-clockwise on their circle.
+bool BisectorVertices::order_ties(const Triple& t, std::vector<std::uint32_t>& ties) {
+  for (const std::uint32_t wave : ties_) {
+    std::size_t at = 0;
+    for (std::size_t n = 0; n < ties.size() && at == 0; ++n) {
+      const std::array<std::uint32_t, 3> order{ties[n], wave, ties[(n + 1) % ties.size()]};
+      const auto test = [&](const auto& numbers) -> MaybeSign {
+        const auto vertex = construct(numbers, t);
+        if (vertex.existence != Existence::proved) return std::nullopt;
+        const auto p = vertex.p + numbers.sites[contenders_[t.pivot].site]->image;
+        std::array<std::decay_t<decltype(p)>, 3> u;
+        for (std::size_t m = 0; m < 3; ++m) {
+          const auto to = numbers.sites[contenders_[order[m]].site]->image - p;
+          const auto length = sqrt(squared_norm(to));
+          u[m] = {to.x / length, to.y / length};
+        }
+        return maybe_sign(predicates::orientation(u[0], u[1], u[2]));
+      };
+      const MaybeSign sign = ladder_.decide(Predicate::conflict, test, [&] { return describe(t, kRivals + wave); });
+      if (!sign) return false;
+      if (*sign == Sign::positive) at = n + 1;
+    }
+    if (at == 0) {
+      ladder_.fail(Predicate::conflict, describe(t, kRivals + wave) + ", seen in the direction of another wave");
+      return false;
+    }
+    ties.insert(ties.begin() + static_cast<std::ptrdiff_t>(at), wave);
+  }
+  return true;
+}
+
+}  // namespace gvd::kernel

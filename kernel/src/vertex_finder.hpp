@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contenders.hpp"
+#include "gvd/kernel/node_point.hpp"
+
+namespace gvd::kernel {
+
+/// Finds the true vertices of a facet: points strictly inside where three waves tie, each sees them, and no other is nearer.
+class BisectorVertices {
+ public:
+  struct Found {
+    bool exists = false;
+    FacetTessellation::Node node;     ///< sites: all that tie, counter-clockwise
+    std::vector<std::uint32_t> ties;  ///< the same as contenders, beginning with the first of the triple
+    std::uint32_t id = FacetTessellation::Piece::kNoNode;  ///< in the result, once it is used there
+    bool is_used() const { return id != FacetTessellation::Piece::kNoNode; }
+  };
+
+  BisectorVertices(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder)
+      : waves_(waves), contenders_(contenders), ladder_(ladder) {}
+
+  /// Only these contenders can conflict: the others own no area of the facet. To be called first.
+  void set_rivals(const std::vector<std::uint32_t>& rivals);
+
+  /// The vertex with the regions of i, j, k counter-clockwise round it. Remembered. Null on failure. Pre: i, j, k are different rivals.
+  Found* find(std::uint32_t i, std::uint32_t j, std::uint32_t k);
+
+ private:
+  /// How to construct the vertex: the three waves in counter-clockwise order, the pivot in the middle; or, if two of them are tangent,
+  /// the relay, the third wave, and the parent's boundary ray.
+  struct Triple {
+    std::array<std::uint32_t, 3> waves;
+    bool on_ray = false;
+    std::uint32_t pivot = 0, other = 0, parent = 0;
+    std::uint8_t ray_end = 0;
+  };
+  enum class Verdict { pass, reject, open, tie, degenerate };
+  /// What has to hold: existence, then inside the three sides, in the cones of the three (two rays each), then not in conflict with a rival.
+  static constexpr std::uint32_t kExistence = 0, kSides = 1, kCones = 4, kRivals = 10;
+
+  std::optional<Triple> triple(std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
+  void examine(const Triple& triple, Found& found);
+  template <class NT>
+  predicates::BisectorVertex<NT> construct(const FacetNumbers<NT>& numbers, const Triple& triple) const;
+  template <class NT>
+  bool run_tests(const FacetNumbers<NT>& numbers, robust::Stage stage, const Triple& triple);
+  template <class NT>
+  Verdict test(const FacetNumbers<NT>& numbers, const Triple& triple, const predicates::BisectorVertex<NT>& vertex,
+               const predicates::PlanePoint<NT>& p, std::uint32_t what) const;
+  template <class NT>
+  Verdict conflict(const FacetNumbers<NT>& numbers, const Triple& triple, const predicates::BisectorVertex<NT>& vertex,
+                   const predicates::PlanePoint<NT>& p, std::uint32_t rival) const;
+  bool order_ties(const Triple& triple, std::vector<std::uint32_t>& ties);
+  static predicates::Predicate predicate_of(std::uint32_t what);
+  std::string describe(const Triple& triple, std::uint32_t what) const;
+
+  FacetWaves& waves_;
+  const Contenders& contenders_;
+  FacetLadder& ladder_;
+  std::vector<std::uint32_t> rivals_;
+  std::vector<std::uint32_t> rank_;       ///< of a contender among the rivals
+  std::vector<std::int32_t> remembered_;  ///< per ordered triple of rivals: 0 unknown, else 1 + index in found_
+  std::vector<Found> found_;
+  std::vector<std::uint32_t> pending_, ties_;
+};
+
+}  // namespace gvd::kernel
