@@ -8,7 +8,7 @@ Ball<DoubleDouble> to_double_double(const Ball<Mpfr>& a) {
   const Mpfr after_hi = Mpfr::subtract(a.mid(), Mpfr(hi), ternary);  // exact: the difference has fewer bits than a.mid(), or 53
   const double lo = after_hi.to_double();
   const double lost = std::fabs((after_hi - Mpfr(lo)).to_double(MPFR_RNDA));
-  return {DoubleDouble(hi, lo), (a.rad() + lost) * kRadiusInflation};
+  return {fast_two_sum(hi, lo), (a.rad() + lost) * kRadiusInflation};
 }
 
 template <>

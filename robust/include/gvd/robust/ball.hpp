@@ -43,8 +43,8 @@ class Ball {
   /// Whether anything is known at all.
   bool is_finite() const noexcept { return rad_ < std::numeric_limits<double>::infinity() && std::isfinite(M::nearest(mid_)); }
   /// Doubles around every member, rounded outward; infinite if nothing is known. lower() <= upper().
-  double lower() const { return -outward(-M::nearest(mid_), -M::rest(mid_)); }
-  double upper() const { return outward(M::nearest(mid_), M::rest(mid_)); }
+  double lower() const { return is_finite() ? -M::upper(M::negate(mid_), rad_) : -std::numeric_limits<double>::infinity(); }
+  double upper() const { return is_finite() ? M::upper(mid_, rad_) : std::numeric_limits<double>::infinity(); }
 
   friend Ball operator-(const Ball& a) { return {M::negate(a.mid_), a.rad_}; }
 
@@ -72,13 +72,26 @@ class Ball {
     return {std::move(product), inflated(a_most * b.rad_ + b_mid * a.rad_ + error + underflow)};
   }
 
+  /// By an exact double: cheaper than by a ball.
+  friend Ball operator*(const Ball& a, double b) {
+    double error;
+    T product = M::multiply(a.mid_, T(b), error);
+    if constexpr (M::kDetectsExactness) {
+      if (a.rad_ == 0) return {std::move(product), error};
+    }
+    const double b_most = std::fabs(b);
+    const double underflow = underflow_unless_zero(M::magnitude(a.mid_) + a.rad_, b_most);
+    return {std::move(product), inflated(b_most * a.rad_ + error + underflow)};
+  }
+  friend Ball operator*(double a, const Ball& b) { return b * a; }
+
   friend Ball operator/(const Ball& a, const Ball& b) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     double error;
     T quotient = M::divide(a.mid_, b.mid_, error);
     const double b_least = M::least_magnitude(b.mid_) - b.rad_;
     if constexpr (M::kDetectsExactness) {
-      if (a.rad_ == 0 && b.rad_ == 0) return {std::move(quotient), b_least > 0 ? error : kInfinity};
+      if (a.rad_ == 0 && b.rad_ == 0) return {std::move(quotient), M::is_zero(b.mid_) ? kInfinity : error};
     }
     const double a_most = M::magnitude(a.mid_) + a.rad_;
     const double underflow = a_most > 0 ? M::kUnderflowOfBall : 0;
@@ -96,7 +109,8 @@ class Ball {
       if (a.rad_ == 0) return {std::move(root), inflated(error)};
       // r / (sqrt m + sqrt(m - r)) <= 0.51 r / sqrt m for r <= m / 16, and never more than r / sqrt m
       const double share = 16 * a.rad_ <= M::least_magnitude(a.mid_) ? 0.51 : 1.0;
-      const double rad = share * a.rad_ / M::least_magnitude(root) + error + M::kUnderflowOfBall;
+      // The quotient first: a product that underflows must not be divided by a small root.
+      const double rad = a.rad_ / M::least_magnitude(root) * share + error + M::kUnderflowOfBall;
       return {std::move(root), inflated(rad)};
     }
     return root_of_non_negative_part(a);
@@ -107,8 +121,10 @@ class Ball {
 
   /// 2^k times the ball.
   Ball scaled(int k) const {
-    const double underflow = M::is_zero(mid_) && rad_ == 0 ? 0 : scale_underflow(k);
-    return {M::scale(mid_, k), inflated(std::ldexp(rad_, k) + underflow)};
+    const bool may_underflow = k < 0 && !(rad_ == 0 && (M::kDetectsExactness || M::is_zero(mid_)));
+    T mid = M::scale(mid_, k);
+    const double overflow = 0 * std::fabs(M::nearest(mid));  // not a number if the midpoint became infinite
+    return {std::move(mid), inflated(std::ldexp(rad_, k) + (may_underflow ? M::kUnderflowOfBall : 0) + overflow)};
   }
 
   Ball& operator+=(const Ball& b) { return *this = *this + b; }
@@ -131,7 +147,6 @@ class Ball {
     const double least = a_most < b_most ? a_most : b_most;
     return least > 0 ? M::kUnderflowOfBall : 0;
   }
-  static double scale_underflow(int k) noexcept { return k < 0 ? M::kUnderflowOfBall : 0; }
 
   /// The ball reaches zero or below (or is not a number): the mid-point of the roots is not worth much, the enclosure is.
   static Ball root_of_non_negative_part(const Ball& a) {
@@ -146,17 +161,6 @@ class Ball {
     return {std::move(root), inflated(rad + error)};
   }
 
-  /// A double not below nearest + rest + rad.
-  double outward(double nearest, double rest) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    if (!is_finite()) return kInfinity;
-    const DoubleDouble sum = two_sum(nearest, rad_);
-    const double tail = sum.lo + rest;  // its rounding error is far below an ulp of the sum, or zero
-    const double result = sum.hi + tail;
-    if (tail == 0 && sum.lo == 0 && rest == 0) return result;
-    return std::nextafter(std::nextafter(result, kInfinity), kInfinity);
-  }
-
   T mid_;
   double rad_;
 };
@@ -165,8 +169,7 @@ class Ball {
 template <class T>
 Ball<double> narrowed(const Ball<T>& a) {
   using M = Midpoint<T>;
-  const double rest = std::fabs(M::rest(a.mid()));
-  return {M::nearest(a.mid()), (a.rad() + rest) * kRadiusInflation};
+  return {M::nearest(a.mid()), (a.rad() + M::rest(a.mid())) * kRadiusInflation};
 }
 
 /// The same real number in double-double or with `bits` bits.
@@ -187,7 +190,7 @@ Ball<Mpfr> from<Ball<Mpfr>>(const mpq_class& q, int bits);
 template <class NT>
 NT from_double(double x, int bits = 0) {
   if constexpr (std::is_same_v<NT, Ball<Mpfr>>)
-    return NT(Mpfr(x, bits), 0);
+    return NT(Mpfr(x, bits), x - x);
   else
     return NT(x);
 }

@@ -13,13 +13,23 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 /// Added wherever a product or quotient of non-zero doubles may have underflowed: each such rounding is off by at most 2^-1075.
 /// A normal number, because subnormal operands are slow on many processors.
 inline constexpr double kUnderflow = 0x1p-1020;
-/// Radii are computed in round-to-nearest by formulas with at most 12 roundings in a row and then multiplied by 1 + 16 u:
+/// Radii are computed in round-to-nearest by formulas with at most 12 roundings in a row and then multiplied by 1 + 16 u, a 13th:
 /// (1 - u)^13 (1 + 16 u) > 1.
 inline constexpr double kRadiusInflation = 1 + 16 * kUnitRoundoff;
 
-/// Rounded arithmetic on the midpoints of balls. Every operation hands back, beside the rounded result, a double that is at least
-/// (1 - u)^3 times a bound of its error (the ball's inflation makes up for that), infinite or not a number when the result is not finite.
-/// A zero error says that the result is exact. docs/error-bounds.md#midpoints.
+/// A double not below a + b + c: the nearest one or a neighbour. Pre: |b| is at most half an ulp of a; c >= 0.
+inline double sum_rounded_up(double a, double b, double c) noexcept {
+  const DoubleDouble head = two_sum(a, c);
+  const DoubleDouble tail = two_sum(head.lo, b);
+  const DoubleDouble sum = two_sum(head.hi, tail.hi);
+  // a + b + c = sum.hi + sum.lo + tail.lo, the last two less than an ulp of the first.
+  return sum.lo + tail.lo > 0 ? std::nextafter(sum.hi, std::numeric_limits<double>::infinity()) : sum.hi;
+}
+
+/// Rounded arithmetic on the midpoints of balls. Every operation hands back, beside the rounded result, a bound of its error, except for what
+/// underflow in a product, quotient or scaling adds to it (kUnderflowOfBall, which the ball adds where it cannot be excluded).
+/// The bound is infinite or not a number when the result is not finite; zero says that the result is exact.
+/// docs/error-bounds.md#midpoints.
 template <class T>
 struct Midpoint;
 
@@ -35,7 +45,6 @@ struct Midpoint<double> {
     return s.hi;
   }
   static double subtract(double a, double b, double& error) noexcept { return add(a, -b, error); }
-  /// The error is valid unless the result underflows: kUnderflow is added by the ball.
   static double multiply(double a, double b, double& error) noexcept {
     const double p = a * b;
     error = kUnitRoundoff * std::fabs(p);
@@ -53,15 +62,17 @@ struct Midpoint<double> {
   }
   static double negate(double a) noexcept { return -a; }
   static double scale(double a, int k) noexcept { return std::ldexp(a, k); }
-  /// At least |a|, up to one rounding; at most |a|, up to one rounding.
+  /// Doubles that are at least and at most |a|.
   static double magnitude(double a) noexcept { return std::fabs(a); }
   static double least_magnitude(double a) noexcept { return std::fabs(a); }
   static bool is_zero(double a) noexcept { return a == 0; }
   static bool is_negative(double a) noexcept { return a < 0; }
   static bool magnitude_exceeds(double a, double bound) noexcept { return std::fabs(a) > bound; }
   static double nearest(double a) noexcept { return a; }
-  /// a - nearest(a), rounded away from zero.
+  /// At least |a - nearest(a)|.
   static double rest(double) noexcept { return 0; }
+  /// A double not below a + rad.
+  static double upper(double a, double rad) noexcept { return sum_rounded_up(a, 0, rad); }
 };
 
 template <>
@@ -94,13 +105,15 @@ struct Midpoint<DoubleDouble> {
   }
   static DoubleDouble negate(const DoubleDouble& a) noexcept { return -a; }
   static DoubleDouble scale(const DoubleDouble& a, int k) noexcept { return {std::ldexp(a.hi, k), std::ldexp(a.lo, k)}; }
-  static double magnitude(const DoubleDouble& a) noexcept { return std::fabs(a.hi) + std::fabs(a.lo); }
-  static double least_magnitude(const DoubleDouble& a) noexcept { return std::fabs(a.hi) - std::fabs(a.lo); }
+  // |lo| <= u |hi|, and the factors are two roundings wide.
+  static double magnitude(const DoubleDouble& a) noexcept { return std::fabs(a.hi) * (1 + 0x1p-52); }
+  static double least_magnitude(const DoubleDouble& a) noexcept { return std::fabs(a.hi) * (1 - 0x1p-52); }
   static bool is_zero(const DoubleDouble& a) noexcept { return a.hi == 0; }
   static bool is_negative(const DoubleDouble& a) noexcept { return a.hi < 0; }
   static bool magnitude_exceeds(const DoubleDouble& a, double bound) noexcept { return abs(a) > DoubleDouble(bound); }
   static double nearest(const DoubleDouble& a) noexcept { return a.hi; }
-  static double rest(const DoubleDouble& a) noexcept { return a.lo; }
+  static double rest(const DoubleDouble& a) noexcept { return std::fabs(a.lo); }
+  static double upper(const DoubleDouble& a, double rad) noexcept { return sum_rounded_up(a.hi, a.lo, rad); }
 
  private:
   /// The relative bound times a small sum underflows although the sum itself does not; a zero sum is exact.
@@ -131,7 +144,12 @@ struct Midpoint<Mpfr> {
   static bool is_negative(const Mpfr& a) noexcept { return a.sign() < 0; }
   static bool magnitude_exceeds(const Mpfr& a, double bound) noexcept { return a.magnitude_exceeds(bound); }
   static double nearest(const Mpfr& a) noexcept { return a.to_double(); }
-  static double rest(const Mpfr& a) { return (a - Mpfr(a.to_double())).to_double(MPFR_RNDA); }
+  static double rest(const Mpfr& a) { return std::fabs((a - Mpfr(a.to_double())).to_double(MPFR_RNDA)); }
+  static double upper(const Mpfr& a, double rad) {
+    Mpfr sum(0.0);
+    mpfr_add_d(sum.get(), a.get(), rad, MPFR_RNDU);
+    return sum.to_double(MPFR_RNDU);
+  }
 
  private:
   using Operation = Mpfr(const Mpfr&, const Mpfr&, int&);
