@@ -197,10 +197,10 @@ class Solver {
     std::vector<DiagramSource> sources(sources_.size());
     for (SourceId i = 0; i < sources.size(); ++i)
       sources[i] = {s_.where.vertex[i], s_.where.weight[i], std::binary_search(s_.hidden.begin(), s_.hidden.end(), i)};
-    const auto parent = [&](WindowId w) { return s_.field.windows[w].parent; };
+    const auto origin = [&](WindowId w) { return WindowOrigin{s_.field.windows[w].parent, s_.field.windows[w].halfedge()}; };
     tbb::task_arena arena(static_cast<int>(std::max(1u, options_.threads)));
     arena.execute([&] {
-      s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, parent},
+      s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, origin},
                            s_.decisions);
     });
     return true;

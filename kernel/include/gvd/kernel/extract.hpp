@@ -29,6 +29,12 @@ struct DiagramSource {
   bool hidden = false;      ///< another source reaches it with less than its own weight
 };
 
+/// One step of the strip of a window.
+struct WindowOrigin {
+  WindowId parent = kNone;      ///< the window of which it is a child; kNone if it starts at its root
+  HalfedgeId halfedge = kNone;  ///< the half-edge over which it comes in
+};
+
 /// What the diagram is made of. The references outlive the call.
 struct DiagramInput {
   const Mesh& input;
@@ -38,8 +44,8 @@ struct DiagramInput {
   const std::vector<LabelSetId>& vertex_labels;           ///< per vertex of `refined`, exact; kNone where no source reaches
   const std::vector<LabelSetId>& face_labels;             ///< per face of `refined`; kNone: unreachable. Not read for boundary facets
   const std::vector<BoundaryFacet>& facets;               ///< sorted by face
-  /// The window of which this one is a child, kNone if it starts at its root.
-  std::function<WindowId(WindowId)> parent;
+  /// How each window of `FacetSite::window`, and each of their ancestors, came about.
+  std::function<WindowOrigin(WindowId)> window;
 };
 
 /// Joins the tessellated facets to the diagram of the input mesh (docs/diagram.md).

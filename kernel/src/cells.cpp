@@ -1,0 +1,410 @@
+#include "cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "conic_area.hpp"
+#include "face_map.hpp"
+#include "gvd/kernel/error.hpp"
+#include "wave_numbers.hpp"
+
+namespace gvd::kernel::subdivision {
+namespace {
+
+/// The root of an element in a union-find forest, with path halving.
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t x) {
+  while (parent[x] != x) x = parent[x] = parent[parent[x]];
+  return x;
+}
+
+double face_area(const Mesh& mesh, FaceId f) {
+  const Point &a = mesh.point(mesh.origin(3 * f)), &b = mesh.point(mesh.origin(3 * f + 1)), &c = mesh.point(mesh.origin(3 * f + 2));
+  std::array<double, 3> u{}, v{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+  }
+  return 0.5 * std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+}
+
+/// A closed outline of a piece of an input face.
+struct Loop {
+  std::uint32_t region;
+  LabelSetId labels;
+  FaceId face;
+  std::vector<std::uint32_t> darts;
+  double area = 0;
+};
+
+class PieceMaker {
+ public:
+  PieceMaker(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs, Diagram& d)
+      : in_(in), s_(s), point_of_(point_of), link_arcs_(link_arcs), d_(d), link_of_(s.darts.size(), kNone) {
+    for (std::uint32_t l = 0; l < s.links.size(); ++l) link_of_[s.links[l].dart] = link_of_[s.darts[s.links[l].dart].twin] = l;
+  }
+
+  void run() {
+    join_over_artificial_edges();
+    make_loops();
+    label_uniform_faces();
+    make_pieces();
+    sum_areas();
+  }
+
+ private:
+  bool is_removed(std::uint32_t d) const {
+    const Dart& dart = s_.darts[d];
+    return dart.halfedge != kNone && dart.twin != kNone && in_.refined.is_artificial(dart.halfedge) && s_.darts[dart.twin].labels == dart.labels;
+  }
+
+  void join_over_artificial_edges() {
+    const auto count = static_cast<std::uint32_t>(s_.darts.size());
+    next_.resize(count);
+    region_.resize(count);
+    std::vector<std::uint32_t> prev(count);
+    for (std::uint32_t d = 0; d < count; ++d) {
+      region_[d] = d;
+      next_[d] = s_.darts[d].next;
+    }
+    for (std::uint32_t d = 0; d < count; ++d) {
+      prev[next_[d]] = d;
+      region_[root_of(region_, d)] = root_of(region_, next_[d]);
+    }
+    for (std::uint32_t d = 0; d < count; ++d) {
+      const std::uint32_t t = s_.darts[d].twin;
+      if (!is_removed(d) || t < d) continue;
+      region_[root_of(region_, d)] = root_of(region_, t);
+      const std::uint32_t before_d = prev[d], after_d = next_[d], before_t = prev[t], after_t = next_[t];
+      next_[before_d] = after_t;
+      prev[after_t] = before_d;
+      next_[before_t] = after_d;
+      prev[after_d] = before_t;
+    }
+  }
+
+  void make_loops() {
+    std::vector<std::uint8_t> visited(s_.darts.size(), 0);
+    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+      if (visited[d] != 0 || is_removed(d)) continue;
+      const FaceId face = in_.refined.input_face(s_.facets[s_.darts[d].facet].face);
+      Loop loop{root_of(region_, d), s_.darts[d].labels, face, {}};
+      for (std::uint32_t x = d; visited[x] == 0; x = next_[x]) {
+        visited[x] = 1;
+        loop.darts.push_back(x);
+        loop.area += dart_area(x);
+      }
+      loops_.push_back(std::move(loop));
+    }
+    // Within a face pieces in the order of their lowest dart; of a piece first the outer outline, which alone has a positive area.
+    std::vector<std::uint32_t> first_of(s_.darts.size(), kNone);
+    for (const Loop& loop : loops_) first_of[loop.region] = std::min(first_of[loop.region], loop.darts.front());
+    std::sort(loops_.begin(), loops_.end(), [&](const Loop& a, const Loop& b) {
+      return std::tuple(a.face, first_of[a.region], a.area < 0, a.darts.front()) < std::tuple(b.face, first_of[b.region], b.area < 0, b.darts.front());
+    });
+  }
+
+  // ---- areas, in the frame of the input face ----
+
+  using NT = FacetWaves::F;
+  using P = PlanePosition;
+
+  P position(const FaceMap<NT>& map, std::uint32_t facet, std::uint32_t p) const {
+    const Skeleton& f = s_.facets[facet];
+    const Place& place = s_.places[p];
+    const auto corner = [&](std::size_t k) { return P{map.corner(k).x.mid(), map.corner(k).y.mid()}; };
+    if (place.kind == Place::Kind::vertex) {
+      for (std::uint32_t k = 0; k < 3; ++k)
+        if (in_.refined.origin(3 * f.face + k) == place.vertex) return corner(k);
+    }
+    const auto& node = s_.facets[place.facet].tessellation->nodes[place.node];
+    if (place.kind == Place::Kind::inside) {
+      const auto at = map({node.x, node.y});
+      return {at.x.mid(), at.y.mid()};
+    }
+    const bool own = place.facet == facet;
+    const std::size_t side = own ? node.where : (Mesh::face(place.halfedge) == f.face ? place.halfedge : in_.refined.twin(place.halfedge)) % 3;
+    const double t = own ? node.t.mid() : 1 - node.t.mid();
+    const P a = corner(side), b = corner((side + 1) % 3);
+    return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+  }
+
+  const FaceMap<NT>& map_of(std::uint32_t facet) {
+    if (mapped_ != facet) {
+      const Skeleton& f = s_.facets[facet];
+      // A face without waves is a part of a split face: its own frame does not matter.
+      const predicates::PlanePoint<NT> apex = f.waves == nullptr ? predicates::PlanePoint<NT>{NT(0.0), NT(1.0)} : frame_in<NT>(*f.waves, 0).apex;
+      map_.emplace(in_.input, in_.refined, f.face, apex, 0);
+      mapped_ = facet;
+    }
+    return *map_;
+  }
+
+  double dart_area(std::uint32_t d) {
+    const Dart& dart = s_.darts[d];
+    const FaceMap<NT>& map = map_of(dart.facet);
+    const P from = position(map, dart.facet, dart.from), to = position(map, dart.facet, s_.to(d));
+    if (dart.arc == kNone) return straight_area(from, to);
+    const Skeleton& f = s_.facets[dart.facet];
+    const auto& arc = f.tessellation->arcs[dart.arc];
+    if (arc.tangent) return straight_area(from, to);
+    const double unit = frame_in<NT>(*f.waves, 0).length.mid();
+    const auto &mine = site_in<NT>(*f.waves, arc.left, 0), &other = site_in<NT>(*f.waves, arc.right, 0);
+    const auto focus = map(mine.image), other_focus = map(other.image);
+    const double area = conic_area({focus.x.mid(), focus.y.mid()}, mine.weight.mid() * unit, {other_focus.x.mid(), other_focus.y.mid()},
+                                   other.weight.mid() * unit, dart.site == arc.left ? from : to, dart.site == arc.left ? to : from);
+    return dart.site == arc.left ? area : -area;
+  }
+
+  // ---- faces and pieces ----
+
+  void label_uniform_faces() {
+    d_.face_label.assign(in_.input.face_count(), kNone);
+    for (FaceId f = 0; f < in_.refined.face_count(); ++f)
+      if (s_.facet_of[f] == kNone) d_.face_label[in_.refined.input_face(f)] = in_.face_labels[f];
+    std::vector<std::uint8_t> several(in_.input.face_count(), 0);
+    for (const Skeleton& facet : s_.facets)
+      if (facet.undecided) several[in_.refined.input_face(facet.face)] = 1;
+    for (const Loop& loop : loops_) {
+      LabelSetId& label = d_.face_label[loop.face];
+      if (label == kNone) label = loop.labels;
+      if (label != loop.labels) several[loop.face] = 1;
+    }
+    for (FaceId f = 0; f < in_.input.face_count(); ++f) {
+      if (several[f] == 0) continue;
+      d_.face_label[f] = kNone;
+      ++d_.boundary_facets;
+    }
+  }
+
+  void make_pieces() {
+    std::uint32_t last_region = kNone;
+    for (const Loop& loop : loops_) {
+      if (d_.face_label[loop.face] != kNone) continue;
+      if (loop.region != last_region) {
+        d_.pieces.push_back({.face = loop.face, .labels = loop.labels, .outline = outline(loop), .holes = {}});
+        last_region = loop.region;
+      } else {
+        d_.pieces.back().holes.push_back(outline(loop));
+      }
+    }
+  }
+
+  /// The name of a place in an outline: a point or a corner; kNone if it is neither.
+  std::uint32_t name_of(std::uint32_t p, FaceId face) const {
+    if (point_of_[p] != kNone) return point_of_[p];
+    const Place& place = s_.places[p];
+    if (place.kind == Place::Kind::vertex)
+      for (std::uint32_t k = 0; k < 3; ++k)
+        if (in_.input.origin(3 * face + k) == place.vertex) return CellPiece::kCorner | k;
+    return kNone;
+  }
+
+  std::vector<CellPiece::Side> outline(const Loop& loop) const {
+    auto darts = loop.darts;
+    const auto first = std::find_if(darts.begin(), darts.end(), [&](std::uint32_t d) { return name_of(s_.darts[d].from, loop.face) != kNone; });
+    std::rotate(darts.begin(), first, darts.end());
+    std::vector<CellPiece::Side> sides;
+    for (const std::uint32_t d : darts) {
+      const std::uint32_t name = name_of(s_.darts[d].from, loop.face);
+      if (name == kNone) continue;
+      CellPiece::Side side{.from = name};
+      const std::uint32_t link = link_of_[d];
+      if (link != kNone) {
+        side.arc = link_arcs_.arc[link];
+        side.reversed = (link_arcs_.reversed[link] != 0) != (s_.links[link].dart != d);
+      }
+      sides.push_back(side);
+    }
+    return sides;
+  }
+
+  void sum_areas() {
+    std::vector<double> area(in_.label_sets.size(), 0);
+    const auto add = [&](LabelSetId labels, double value) {
+      if (labels != kNone) area[labels] += value;
+    };
+    for (FaceId f = 0; f < in_.input.face_count(); ++f) add(d_.face_label[f], face_area(in_.input, f));
+    for (const Loop& loop : loops_)
+      if (d_.face_label[loop.face] == kNone) add(loop.labels, loop.area);
+    for (LabelSetId labels = 0; labels < area.size(); ++labels) {
+      for (const SourceId source : in_.label_sets[labels]) d_.cells[source].area += area[labels];
+      if (in_.label_sets[labels].size() > 1 && area[labels] > 0) d_.shared.push_back({labels, area[labels]});
+    }
+  }
+
+  const DiagramInput& in_;
+  const Subdivision& s_;
+  const std::vector<std::uint32_t>& point_of_;
+  const LinkArcs& link_arcs_;
+  Diagram& d_;
+  std::vector<std::uint32_t> next_, region_;
+  std::vector<Loop> loops_;
+  std::optional<FaceMap<NT>> map_;
+  std::uint32_t mapped_ = kNone;
+  std::vector<std::uint32_t> link_of_;  // per dart
+};
+
+// ---- Euler characteristics ----
+
+/// Counts the vertices, edges and faces of the subdivided surface that lie in the closed region of each label set, and of each source.
+class EulerCount {
+ public:
+  EulerCount(const DiagramInput& in, const Subdivision& s)
+      : of_labels(in.label_sets.size(), 0), of_source(in.sources.size(), 0), in_(in), s_(s), inside_(in.label_sets.size(), 0) {
+    count_faces();
+    count_edges();
+    count_vertices();
+    distribute_inside();
+  }
+
+  std::vector<std::int64_t> of_labels, of_source;
+  std::int64_t of_surface = 0;  ///< of the part that is reached
+
+ private:
+  /// Adds a cell of the subdivision, whose closure in the regions of these label sets it is.
+  void add(std::vector<LabelSetId>& labels, std::int64_t sign) {
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    if (!labels.empty() && labels.back() == kNone) labels.pop_back();
+    if (labels.empty()) return;
+    of_surface += sign;
+    sources_.clear();
+    for (const LabelSetId l : labels) {
+      of_labels[l] += sign;
+      sources_.insert(sources_.end(), in_.label_sets[l].begin(), in_.label_sets[l].end());
+    }
+    if (labels.size() > 1) {
+      std::sort(sources_.begin(), sources_.end());
+      sources_.erase(std::unique(sources_.begin(), sources_.end()), sources_.end());
+    }
+    for (const SourceId source : sources_) of_source[source] += sign;
+  }
+  /// The same inside the region of one label set.
+  void add_inside(LabelSetId labels, std::int64_t sign) {
+    if (labels == kNone) return;
+    of_surface += sign;
+    inside_[labels] += sign;
+  }
+  void distribute_inside() {
+    for (LabelSetId l = 0; l < inside_.size(); ++l) {
+      of_labels[l] += inside_[l];
+      for (const SourceId source : in_.label_sets[l]) of_source[source] += inside_[l];
+    }
+  }
+
+  bool is_plain(FaceId f) const { return s_.facet_of[f] == kNone; }
+
+  /// Each outline of a facet bounds a disc: their number agrees with the characteristic of the facet.
+  void count_faces() {
+    for (FaceId f = 0; f < in_.refined.face_count(); ++f)
+      if (is_plain(f)) add_inside(in_.face_labels[f], 1);
+    std::vector<std::uint8_t> visited(s_.darts.size(), 0);
+    std::vector<std::int64_t> discs(s_.facets.size(), 0), arcs(s_.facets.size(), 0), inner(s_.facets.size(), 0);
+    for (const Place& place : s_.places)
+      if (place.kind == Place::Kind::inside) ++inner[place.facet];
+    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+      const Dart& dart = s_.darts[d];
+      if (dart.arc != kNone) ++arcs[dart.facet];
+      if (visited[d] != 0) continue;
+      for (std::uint32_t x = d; visited[x] == 0; x = s_.darts[x].next) {
+        visited[x] = 1;
+        if (s_.darts[x].labels != dart.labels) throw InternalError("an outline with two label sets in facet " + std::to_string(s_.facets[dart.facet].face));
+      }
+      ++discs[dart.facet];
+      add_inside(dart.labels, 1);
+    }
+    for (std::size_t f = 0; f < s_.facets.size(); ++f) {  // outline: as many places as sides; arcs have two darts
+      if (!s_.facets[f].undecided && inner[f] - arcs[f] / 2 + discs[f] != 1)
+        throw InternalError("facet " + std::to_string(s_.facets[f].face) + ": the regions are not discs");
+    }
+  }
+
+  void count_edges() {
+    for (HalfedgeId h = 0; h < in_.refined.halfedge_count(); ++h) {
+      const HalfedgeId twin = in_.refined.twin(h);
+      if ((twin != kNone && twin < h) || !is_plain(Mesh::face(h))) continue;
+      if (twin == kNone || is_plain(Mesh::face(twin))) add_inside(in_.face_labels[Mesh::face(h)], -1);
+    }
+    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+      const Dart& dart = s_.darts[d];
+      if (dart.twin != kNone && dart.twin < d) continue;
+      labels_.assign({dart.labels, dart.twin == kNone ? dart.labels : s_.darts[dart.twin].labels});
+      add(labels_, -1);
+    }
+  }
+
+  void count_vertices() {
+    std::vector<std::vector<LabelSetId>> around(s_.places.size());
+    for (const Dart& dart : s_.darts) around[dart.from].push_back(dart.labels);
+    for (VertexId v = 0; v < in_.refined.vertex_count(); ++v) {
+      if (in_.refined.is_isolated(v)) continue;
+      const std::uint32_t place = s_.vertex_place[v];
+      if (place == kNone) {
+        add_inside(in_.face_labels[Mesh::face(in_.refined.outgoing(v))], 1);
+        continue;
+      }
+      in_.refined.for_each_outgoing(v, [&](HalfedgeId h) {
+        if (is_plain(Mesh::face(h))) around[place].push_back(in_.face_labels[Mesh::face(h)]);
+      });
+    }
+    for (auto& labels : around) add(labels, 1);
+  }
+
+  const DiagramInput& in_;
+  const Subdivision& s_;
+  std::vector<std::int64_t> inside_;
+  std::vector<SourceId> sources_;
+  std::vector<LabelSetId> labels_;
+};
+
+/// V - E + F of the part of the refined mesh that is reached, from the mesh alone.
+std::int64_t euler_of_reached(const DiagramInput& in, const Subdivision& s) {
+  const Mesh& mesh = in.refined;
+  const auto reached = [&](HalfedgeId h) { return s.facet_of[Mesh::face(h)] != kNone || in.face_labels[Mesh::face(h)] != kNone; };
+  std::int64_t euler = 0;
+  for (HalfedgeId h = 0; h < mesh.halfedge_count(); ++h) {
+    if (!reached(h)) continue;
+    if (h % 3 == 0) ++euler;
+    if (mesh.twin(h) == kNone || h < mesh.twin(h)) --euler;
+  }
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+    if (!mesh.is_isolated(v) && reached(mesh.outgoing(v))) ++euler;
+  return euler;
+}
+
+}  // namespace
+
+void check_euler(const DiagramInput& in, const Subdivision& s, const Chains& chains) {
+  const EulerCount count(in, s);
+  const std::int64_t surface = euler_of_reached(in, s);
+  if (count.of_surface != surface) throw InternalError("the subdivision does not have the Euler characteristic of the surface");
+  std::int64_t sum = 0;
+  for (const std::int64_t euler : count.of_labels) sum += euler;
+  for (const Chain& chain : chains.chains) sum += chain.closed ? 0 : 1;
+  std::vector<LabelSetId> around;
+  for (std::uint32_t p = 0; p < s.places.size(); ++p) {
+    if (!is_end(chains.role[p])) continue;
+    around.clear();
+    for (const LinkEnd& end : s.ends_at(p)) around.insert(around.end(), s.links[end.link].labels.begin(), s.links[end.link].labels.end());
+    std::sort(around.begin(), around.end());
+    sum -= std::unique(around.begin(), around.end()) - around.begin() - 1;
+  }
+  if (sum != surface) throw InternalError("Euler's formula does not hold for the diagram: " + std::to_string(sum) + " instead of " + std::to_string(surface));
+}
+
+void make_cells(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs,
+                Diagram& diagram) {
+  diagram.cells.resize(in.sources.size());
+  const EulerCount count(in, s);
+  for (SourceId i = 0; i < in.sources.size(); ++i) {
+    diagram.cells[i].source = i;
+    diagram.cells[i].hidden = in.sources[i].hidden;
+    diagram.cells[i].euler = count.of_source[i];
+  }
+  PieceMaker(in, s, point_of, link_arcs, diagram).run();
+}
+
+}  // namespace gvd::kernel::subdivision

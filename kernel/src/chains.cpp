@@ -1,0 +1,174 @@
+#include "chains.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "gvd/kernel/error.hpp"
+
+namespace gvd::kernel::subdivision {
+namespace {
+
+void add_sources(const DiagramInput& in, LabelSetId labels, std::vector<SourceId>& to) {
+  if (labels == kNone) return;
+  to.insert(to.end(), in.label_sets[labels].begin(), in.label_sets[labels].end());
+}
+
+void sort_unique(std::vector<std::uint32_t>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+std::vector<SourceId> sources_of_links(const DiagramInput& in, const Subdivision& s, std::uint32_t place) {
+  std::vector<SourceId> sources;
+  for (const LinkEnd& end : s.ends_at(place))
+    for (const LabelSetId labels : s.links[end.link].labels) add_sources(in, labels, sources);
+  sort_unique(sources);
+  return sources;
+}
+
+/// How a wave reaches a vertex that it attains: through the window whose apex the vertex is, or along an edge from its root.
+struct Arrival {
+  WindowId window = kNone;
+  VertexId root = kNone;
+  bool operator==(const Arrival&) const = default;
+};
+
+class Tracer {
+ public:
+  Tracer(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {}
+
+  Chains run() {
+    result_.role.assign(s_.places.size(), Role::none);
+    for (std::uint32_t p = 0; p < s_.places.size(); ++p) result_.role[p] = role_of(p);
+    visited_.assign(s_.links.size(), 0);
+    for (std::uint32_t p = 0; p < s_.places.size(); ++p) {
+      if (!is_end(result_.role[p])) continue;
+      for (const LinkEnd& end : s_.ends_at(p))
+        if (visited_[end.link] == 0) walk({end.link, end.at_to}, false);
+    }
+    for (std::uint32_t l = 0; l < s_.links.size(); ++l)
+      if (visited_[l] == 0) walk({l, false}, true);
+    return std::move(result_);
+  }
+
+ private:
+  Role role_of(std::uint32_t p) const {
+    const auto ends = s_.ends_at(p);
+    if (ends.empty()) return Role::none;
+    const Place& place = s_.places[p];
+    if (ends.size() > 2 || label_sets_around(p) > 2 || has_further_source(p)) return Role::vertex;
+    if (place.boundary) return Role::boundary;
+    if (place.open) return Role::open;
+    if (ends.size() != 2) throw InternalError("a GVD edge ends at " + describe(p) + ", where no other one ends");
+    const DirectedLink in{ends[0].link, !ends[0].at_to}, out{ends[1].link, ends[1].at_to};
+    for (std::size_t side = 0; side < 2; ++side)
+      if (label_beside(s_, in, side) != label_beside(s_, out, side))
+        throw InternalError("the label sets beside a GVD edge are exchanged at " + describe(p));
+    if (!continues(p, in, out, 0) || !continues(p, in, out, 1)) return Role::break_point;
+    return inside_input_face(in_, place) ? Role::erased : Role::crossing;
+  }
+
+  std::size_t label_sets_around(std::uint32_t p) const {
+    std::vector<LabelSetId> around;
+    for (const LinkEnd& end : s_.ends_at(p))
+      for (const LabelSetId labels : s_.links[end.link].labels) around.push_back(labels);
+    sort_unique(around);
+    return around.size();
+  }
+
+  /// A vertex may have a nearest source that has no region around it.
+  bool has_further_source(std::uint32_t p) const {
+    return s_.places[p].kind == Place::Kind::vertex && sources_at(in_, s_, p).size() > sources_of_links(in_, s_, p).size();
+  }
+
+  /// Whether the wave on one side of a GVD edge stays the same at a place, by identity.
+  bool continues(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
+    const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];
+    const Place& place = s_.places[p];
+    const Skeleton &fa = s_.facets[a.facet], &fb = s_.facets[b.facet];
+    if (a.facet == b.facet && a.site == b.site) return true;
+    if (place.kind == Place::Kind::vertex) return continues_at_vertex(place.vertex, fa, a.site, fb, b.site);
+    if (a.facet == b.facet) return have_one_image(fa, a.site, b.site);
+    const HalfedgeId h = place.halfedge, twin = in_.refined.twin(h);
+    return EdgeJoiner::same_wave(in_, fa.face == Mesh::face(h) ? h : twin, fa, a.site, fb, b.site);
+  }
+
+  /// Two windows of one root that pass a flat vertex on either side: the arc between them is a ray, though their weights are the same.
+  static bool have_one_image(const Skeleton& facet, std::uint32_t a, std::uint32_t b) {
+    if (facet.waves->sites[a].root != facet.waves->sites[b].root) return false;
+    for (const auto& arc : facet.tessellation->arcs)
+      if (arc.tangent && ((arc.left == a && arc.right == b) || (arc.left == b && arc.right == a))) return true;
+    return false;
+  }
+
+  /// At a flat vertex a wave stays the same if it gets there by one and the same geodesic.
+  bool continues_at_vertex(VertexId v, const Skeleton& fa, std::uint32_t a, const Skeleton& fb, std::uint32_t b) const {
+    if (!is_flat(fa, v) || !is_flat(fb, v)) return false;
+    const FacetSite &x = fa.waves->sites[a], &y = fb.waves->sites[b];
+    return x.root == y.root && arrival(x, v) == arrival(y, v);
+  }
+
+  static bool is_flat(const Skeleton& facet, VertexId v) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (facet.waves->corner[k] == v) return facet.waves->corner_is_flat[k];
+    return false;
+  }
+
+  Arrival arrival(const FacetSite& site, VertexId v) const {
+    for (WindowId w = site.window; w != kNone;) {
+      const WindowOrigin origin = in_.window(w);
+      if (in_.refined.apex(origin.halfedge) == v) return {w, site.root};
+      w = origin.parent;
+    }
+    return {kNone, site.root};
+  }
+
+  void walk(DirectedLink first, bool closed) {
+    Chain chain{.links = {}, .closed = closed};
+    for (DirectedLink link = first;;) {
+      visited_[link.link] = 1;
+      chain.links.push_back(link);
+      const std::uint32_t p = to_place(s_, link);
+      if (is_end(result_.role[p])) break;
+      const auto ends = s_.ends_at(p);
+      const LinkEnd& next = ends[0].link == link.link && ends[0].at_to != link.reversed ? ends[1] : ends[0];
+      link = {next.link, next.at_to};
+      if (visited_[link.link] != 0) break;
+    }
+    result_.chains.push_back(std::move(chain));
+  }
+
+  std::string describe(std::uint32_t p) const {
+    const Place& place = s_.places[p];
+    if (place.kind == Place::Kind::vertex) return "vertex " + std::to_string(place.vertex);
+    if (place.kind == Place::Kind::edge)
+      return "a point of side " + std::to_string(place.halfedge % 3) + " of facet " + std::to_string(Mesh::face(place.halfedge));
+    return "a point of facet " + std::to_string(s_.facets[place.facet].face);
+  }
+
+  const DiagramInput& in_;
+  const Subdivision& s_;
+  Chains result_;
+  std::vector<std::uint8_t> visited_;
+};
+
+}  // namespace
+
+bool inside_input_face(const DiagramInput& in, const Place& place) {
+  if (place.kind == Place::Kind::inside) return true;
+  if (place.kind == Place::Kind::edge) return in.refined.is_artificial(place.halfedge);
+  if (place.vertex < in.refined.input_vertex_count() || place.boundary) return false;
+  bool inside = true;
+  in.refined.for_each_outgoing(place.vertex, [&](HalfedgeId h) { inside = inside && in.refined.is_artificial(h); });
+  return inside;
+}
+
+std::vector<SourceId> sources_at(const DiagramInput& in, const Subdivision& s, std::uint32_t place) {
+  std::vector<SourceId> sources = sources_of_links(in, s, place);
+  if (s.places[place].kind == Place::Kind::vertex) add_sources(in, in.vertex_labels[s.places[place].vertex], sources);
+  sort_unique(sources);
+  return sources;
+}
+
+Chains trace(const DiagramInput& in, const Subdivision& s) { return Tracer(in, s).run(); }
+}  // namespace gvd::kernel::subdivision

@@ -1,0 +1,287 @@
+#include "diagram_points.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "face_map.hpp"
+#include "gvd/robust/rounding.hpp"
+#include "node_numbers.hpp"
+
+namespace gvd::kernel::subdivision {
+namespace {
+
+using predicates::PlanePoint;
+using predicates::Predicate;
+using robust::Stage;
+
+template <class NT>
+struct PointNumbers {
+  std::array<NT, 3> position;
+  PlanePoint<NT> frame;
+};
+
+constexpr int kExactBits = 192;  // of enclosures of exact numbers
+
+Enclosed enclosed(const robust::Exact& x);
+template <class T>
+Enclosed enclosed(const robust::Ball<T>& x) {
+  return {robust::Midpoint<T>::nearest(x.mid()), x.lower(), x.upper()};
+}
+Enclosed enclosed(const robust::Exact& x) { return enclosed(x.enclosure(kExactBits)); }
+
+/// Whether the double nearest to the midpoint is within an ulp of the truth, or of the size of the face.
+bool is_sharp(const robust::Exact&, double) { return true; }
+template <class T>
+bool is_sharp(const robust::Ball<T>& x, double size) {
+  const double magnitude = std::max(std::fabs(robust::Midpoint<T>::nearest(x.mid())), size);
+  return x.rad() <= magnitude * 0x1p-55;
+}
+
+bool facet_has_exact(FacetWaves& waves, std::initializer_list<std::uint32_t> sites) {
+  if (waves.exact_frame() == nullptr) return false;
+  return std::all_of(sites.begin(), sites.end(),
+                     [&](std::uint32_t site) { return site == FacetTessellation::kNoSite || waves.exact_site(site) != nullptr; });
+}
+
+/// Tries one stage after the other until `attempt(NT(), bits)` returns true.
+template <class Attempt>
+Stage climb(bool has_exact, Attempt&& attempt) {
+  if (attempt(FacetWaves::DD(), 0)) return Stage::double_double;
+  for (const int bits : {128, 256})
+    if (attempt(FacetWaves::M(), bits)) return Stage::mpfr;
+  if (has_exact && attempt(robust::Exact(), 0)) return Stage::algebra;
+  for (const int bits : {512, 1024})
+    if (attempt(FacetWaves::M(), bits)) return Stage::mpfr;
+  return Stage::undecided;
+}
+
+class PointBuilder {
+ public:
+  PointBuilder(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {}
+
+  Stage build(std::uint32_t p, DiagramPoint& point) const {
+    const Place& place = s_.places[p];
+    if (place.kind == Place::Kind::vertex) {
+      at_vertex(place, point);
+      return Stage::identity;
+    }
+    const Skeleton& facet = s_.facets[place.facet];
+    point.face = in_.refined.input_face(facet.face);
+    if (place.kind == Place::Kind::edge && !in_.refined.is_artificial(place.halfedge)) point.edge = input_edge(in_, place.halfedge);
+    const auto& node = facet.tessellation->nodes[place.node];
+    const bool has_exact = facet_has_exact(*facet.waves, {node.defining[0], node.defining[1], node.defining[2], node.ray});
+    return climb(has_exact, [&]<class NT>(const NT&, int bits) { return accept(numbers<NT>(place, facet, bits), point); });
+  }
+
+ private:
+  template <class NT>
+  PointNumbers<NT> numbers(const Place& place, const Skeleton& facet, int bits) const {
+    const auto& frame = frame_in<NT>(*facet.waves, bits);
+    const FaceMap<NT> map(in_.input, in_.refined, facet.face, frame.apex, bits);
+    std::array<std::array<NT, 3>, 3> corner;
+    for (std::uint32_t k = 0; k < 3; ++k) corner[k] = position_in<NT>(in_.refined, in_.refined.origin(3 * facet.face + k), bits);
+    PointNumbers<NT> result;
+    const auto& node = facet.tessellation->nodes[place.node];
+    if (node.kind == FacetTessellation::Node::Kind::side) {  // two corners only: what they have in common stays exact
+      const NT t = side_parameter<NT>(*facet.waves, *facet.tessellation, place.node, bits);
+      const auto &a = corner[node.where], &b = corner[(node.where + 1) % 3];
+      for (std::size_t i = 0; i < 3; ++i) result.position[i] = a[i] + t * (b[i] - a[i]);
+      result.frame = map.corner(node.where) + t * (map.corner((node.where + 1) % 3) - map.corner(node.where));
+      return result;
+    }
+    const PlanePoint<NT> p = inner_point<NT>(*facet.waves, *facet.tessellation, place.node, bits);
+    const PlanePoint<NT> b = map.affine(p);
+    for (std::size_t i = 0; i < 3; ++i)
+      result.position[i] = corner[0][i] + (b.x * (corner[1][i] - corner[0][i]) + b.y * (corner[2][i] - corner[0][i]));
+    result.frame = map(p);
+    return result;
+  }
+
+  template <class NT>
+  bool accept(const PointNumbers<NT>& numbers, DiagramPoint& point) const {
+    bool unique = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::optional<double> value = rounded(numbers.position[i]);
+      unique = unique && value.has_value();
+      point.position[i] = value ? *value : enclosed(numbers.position[i]).value;
+    }
+    point.frame = {enclosed(numbers.frame.x), enclosed(numbers.frame.y)};
+    const double size = std::max(std::fabs(point.frame[0].value), std::fabs(point.frame[1].value));
+    return unique && is_sharp(numbers.frame.x, size) && is_sharp(numbers.frame.y, size);
+  }
+
+  void at_vertex(const Place& place, DiagramPoint& point) const {
+    using NT = FacetWaves::DD;
+    const Point& p = in_.refined.point(place.vertex);
+    for (std::size_t i = 0; i < 3; ++i) point.position[i] = p[i] + 0.0;
+    if (place.vertex < in_.refined.input_vertex_count()) point.vertex = place.vertex;
+    in_.refined.for_each_outgoing(place.vertex, [&](HalfedgeId h) {
+      point.face = std::min(point.face, in_.refined.input_face(Mesh::face(h)));
+      if (point.vertex != kNone) return;
+      for (const HalfedgeId side : {h, Mesh::prev(h)})
+        if (!in_.refined.is_artificial(side)) point.edge = input_edge(in_, side);
+    });
+    const auto bary = barycentric_in_face(in_.input, point.face, in_.refined, place.vertex);
+    const auto frame = input_frame<NT>(in_.input, point.face, 0);
+    const NT b1 = robust::from<NT>(bary[1]), b2 = robust::from<NT>(bary[2]);
+    point.frame = {enclosed(b1 * frame.length + b2 * frame.apex.x), enclosed(b2 * frame.apex.y)};
+  }
+
+  const DiagramInput& in_;
+  const Subdivision& s_;
+};
+
+/// Calls `work(items of one owner)` for each owner, in parallel; `owner[i]` is that of item i.
+template <class Work>
+void for_each_owner(const std::vector<std::uint32_t>& owner, std::size_t owners, Work&& work) {
+  std::vector<std::uint32_t> start(owners + 1, 0), items(owner.size());
+  for (const std::uint32_t o : owner) ++start[o + 1];
+  for (std::size_t o = 0; o < owners; ++o) start[o + 1] += start[o];
+  std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
+  for (std::uint32_t i = 0; i < owner.size(); ++i) items[fill[owner[i]]++] = i;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, owners, 16), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t o = range.begin(); o < range.end(); ++o)
+      for (std::uint32_t k = start[o]; k < start[o + 1]; ++k) work(items[k]);
+  });
+}
+
+// ---- arcs ----
+
+class ArcBuilder {
+ public:
+  ArcBuilder(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {
+    for (const DiagramSource& source : in.sources)
+      if (!source.hidden) start_.push_back({source.vertex, source.weight});
+    std::sort(start_.begin(), start_.end());
+  }
+
+  void build(DirectedLink link, Arc& arc) const {
+    const Dart* beside[2] = {&s_.darts[dart_beside(s_, link, 0)], &s_.darts[dart_beside(s_, link, 1)]};
+    const std::size_t low = in_.refined.input_face(s_.facets[beside[0]->facet].face) <= in_.refined.input_face(s_.facets[beside[1]->facet].face) ? 0 : 1;
+    const Dart& home = *beside[low];
+    arc.face = in_.refined.input_face(s_.facets[home.facet].face);
+    arc.along_edge = home.halfedge != kNone && !in_.refined.is_artificial(home.halfedge);
+    const FacetWaves& left = *s_.facets[beside[0]->facet].waves;
+    const FacetWaves& right = *s_.facets[beside[1]->facet].waves;
+    const FacetSite &l = left.sites[beside[0]->site], &r = right.sites[beside[1]->site];
+    arc.labels = {l.labels, r.labels};
+    arc.root = {l.root, r.root};
+    climb(false, [&]<class NT>(const NT&, int bits) { return numbers<NT>(beside, home, arc, bits); });
+  }
+
+ private:
+  template <class NT>
+  bool numbers(const Dart* const (&beside)[2], const Dart& home, Arc& arc, int bits) const {
+    const Skeleton& facet = s_.facets[home.facet];
+    const auto& frame = frame_in<NT>(*facet.waves, bits);
+    const FaceMap<NT> map(in_.input, in_.refined, facet.face, frame.apex, bits);
+    std::array<NT, 2> weight;
+    bool sharp = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Dart& dart = *beside[i];
+      const Skeleton& other = s_.facets[dart.facet];
+      const auto& site = site_in<NT>(*other.waves, dart.site, bits);
+      PlanePoint<NT> image = site.image;
+      if (dart.facet != home.facet) {  // unfolded over the edge
+        const auto z = seen_from_side(predicates::side_line(frame_in<NT>(*other.waves, bits), dart.halfedge % 3), site.image);
+        image = placed_at_side(predicates::side_line(frame, home.halfedge % 3), PlanePoint<NT>{NT(1.0) - z.x, -z.y});
+      }
+      const PlanePoint<NT> placed = map(image);
+      weight[i] = site.weight * frame_in<NT>(*other.waves, bits).length;
+      arc.image[i] = {enclosed(placed.x), enclosed(placed.y)};
+      arc.weight[i] = enclosed(weight[i]);
+      const double size = std::max(std::fabs(arc.image[i][0].value), std::fabs(arc.image[i][1].value));
+      sharp = sharp && is_sharp(placed.x, size) && is_sharp(placed.y, size) && is_sharp(weight[i], 0);
+    }
+    arc.conic = conic(beside, arc, maybe_sign(weight[0] - weight[1]));
+    return sharp;
+  }
+
+  Arc::Conic conic(const Dart* const (&beside)[2], const Arc& arc, robust::MaybeSign difference) const {
+    const Dart& dart = *beside[0];
+    const bool inner = dart.arc != kNone;
+    if (inner && s_.facets[dart.facet].tessellation->arcs[dart.arc].tangent) return Arc::Conic::ray;
+    if (arc.root[0] == arc.root[1] || difference == robust::Sign::zero || start_together(arc.root)) return Arc::Conic::line;
+    if (inner) return Arc::Conic::hyperbola;
+    return difference ? Arc::Conic::ray : Arc::Conic::line;  // along an edge: on its line, or mirrored in it
+  }
+
+  /// Whether two roots are sources of one weight.
+  bool start_together(const std::array<VertexId, 2>& root) const {
+    std::array<const std::pair<VertexId, double>*, 2> found{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto at = std::lower_bound(start_.begin(), start_.end(), std::pair{root[i], -1.0});
+      if (at == start_.end() || at->first != root[i]) return false;
+      found[i] = &*at;
+    }
+    return found[0]->second == found[1]->second;
+  }
+
+  const DiagramInput& in_;
+  const Subdivision& s_;
+  std::vector<std::pair<VertexId, double>> start_;
+};
+
+}  // namespace
+
+std::array<VertexId, 2> input_edge(const DiagramInput& in, HalfedgeId h) {
+  const Mesh& mesh = in.refined;
+  // Along the edge: the other unsplit side at an inserted vertex that belongs to the same input face.
+  const auto follow = [&](VertexId v, HalfedgeId side) {
+    while (v >= mesh.input_vertex_count()) {
+      const FaceId face = mesh.input_face(Mesh::face(side));
+      HalfedgeId next = kNone;
+      mesh.for_each_outgoing(v, [&](HalfedgeId out) {
+        for (const HalfedgeId candidate : {out, Mesh::prev(out)}) {
+          if (mesh.is_artificial(candidate) || mesh.input_face(Mesh::face(candidate)) != face) continue;
+          if (candidate != side) next = candidate;
+        }
+      });
+      v = mesh.origin(next) == v ? mesh.target(next) : mesh.origin(next);
+      side = next;
+    }
+    return v;
+  };
+  const VertexId a = follow(mesh.origin(h), h), b = follow(mesh.target(h), h);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+std::vector<DiagramPoint> construct_points(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& places,
+                                           predicates::Decisions& decisions) {
+  std::vector<DiagramPoint> points(places.size());
+  std::vector<Stage> stage(places.size());
+  std::vector<std::uint32_t> owner(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::uint32_t facet = s.places[places[i]].facet;
+    owner[i] = facet == kNone ? static_cast<std::uint32_t>(s.facets.size()) : facet;
+  }
+  const PointBuilder builder(in, s);
+  for_each_owner(owner, s.facets.size() + 1, [&](std::uint32_t i) { stage[i] = builder.build(places[i], points[i]); });
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (stage[i] == Stage::undecided)
+      predicates::undecided(decisions, Predicate::rounding, "coordinates of a point of the diagram in face " + std::to_string(points[i].face));
+    else
+      predicates::count(decisions, Predicate::rounding, stage[i]);
+  }
+  return points;
+}
+
+void construct_arcs(const DiagramInput& in, const Subdivision& s, const std::vector<DirectedLink>& links, std::vector<Arc>& arcs) {
+  std::vector<std::uint32_t> owner(links.size());
+  for (std::uint32_t i = 0; i < links.size(); ++i) {
+    const Dart &left = s.darts[dart_beside(s, links[i], 0)], &right = s.darts[dart_beside(s, links[i], 1)];
+    owner[i] = left.facet == right.facet ? left.facet : static_cast<std::uint32_t>(s.facets.size());
+  }
+  const ArcBuilder builder(in, s);
+  for_each_owner(owner, s.facets.size() + 1, [&](std::uint32_t i) {
+    if (owner[i] < s.facets.size()) builder.build(links[i], arcs[i]);
+  });
+  for (std::uint32_t i = 0; i < links.size(); ++i)
+    if (owner[i] == s.facets.size()) builder.build(links[i], arcs[i]);
+}
+
+}  // namespace gvd::kernel::subdivision

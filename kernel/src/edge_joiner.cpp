@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "wave_numbers.hpp"
+#include "gvd/kernel/error.hpp"
+#include "node_numbers.hpp"
+#include "subdivision.hpp"
+
+namespace gvd::kernel::subdivision {
+
+using predicates::Predicate;
+using robust::MaybeSign;
+using robust::Sign;
+using robust::Stage;
+
+/// The two sides of one edge, both in the order of the half-edge of the left facet.
+struct EdgeJoiner::View {
+  HalfedgeId h, twin;
+  const Skeleton &left, &right;
+  SideView of_left, of_right;
+};
+
+namespace {
+
+/// One node or wave on one side of the edge.
+struct Shore {
+  const Skeleton& facet;
+  std::uint32_t side;
+  bool against;  ///< the side runs against the direction in which the edge is read
+};
+
+template <class NT>
+NT parameter(const Shore& shore, std::uint32_t node, int bits) {
+  NT t = side_parameter<NT>(*shore.facet.waves, *shore.facet.tessellation, node, bits);
+  return shore.against ? NT(1.0) - t : t;
+}
+
+template <class NT>
+struct EdgeWave {
+  NT along, height, weight;
+};
+
+template <class NT>
+EdgeWave<NT> edge_wave(const Shore& shore, std::uint32_t site, int bits) {
+  const auto& s = site_in<NT>(*shore.facet.waves, site, bits);
+  const auto& frame = frame_in<NT>(*shore.facet.waves, bits);
+  const auto z = seen_from_side(predicates::side_line(frame, shore.side), s.image);
+  const NT weight = s.weight * frame.length;
+  return {shore.against ? NT(1.0) - z.x : z.x, abs(z.y), weight};
+}
+
+/// Whether the facet and all its waves can be had as exact numbers.
+bool has_exact(const Skeleton& facet) {
+  if (facet.waves->exact_frame() == nullptr) return false;
+  for (std::size_t i = 0; i < facet.waves->sites.size(); ++i)
+    if (facet.waves->exact_site(i) == nullptr) return false;
+  return true;
+}
+
+bool nonzero(const MaybeSign& sign) { return sign.has_value() && *sign != Sign::zero; }
+
+/// Whether two waves certainly do not tie along an interval of the edge: they are neither images of equal weight that are equal or mirrored in
+/// the edge, nor both on the line of the edge.
+template <class NT>
+bool certainly_no_tie(const Shore& a, std::uint32_t site_a, const Shore& b, std::uint32_t site_b, int bits) {
+  const EdgeWave<NT> x = edge_wave<NT>(a, site_a, bits), y = edge_wave<NT>(b, site_b, bits);
+  const bool not_mirrored =
+      nonzero(maybe_sign(x.weight - y.weight)) || nonzero(maybe_sign(x.along - y.along)) || nonzero(maybe_sign(x.height - y.height));
+  return not_mirrored && (nonzero(maybe_sign(x.height)) || nonzero(maybe_sign(y.height)));
+}
+
+/// The sites between two pieces, both included, on the two sides of a stretch of the edge.
+struct Stretch {
+  std::span<const Piece> left, right;
+};
+
+/// Whether the two sides cannot differ along the stretch, however short: everywhere the label sets do differ, and no two waves tie.
+template <class NT>
+bool impossible(const Stretch& stretch, const Shore& left, const Shore& right, int bits) {
+  for (const Piece& a : stretch.left)
+    for (const Piece& b : stretch.right)
+      if (a.labels == b.labels || !certainly_no_tie<NT>(left, a.site, right, b.site, bits)) return false;
+  return true;
+}
+
+/// The pieces after event `from` up to the next essential event or the end of the side.
+std::span<const Piece> pieces_after(const SideView& view, std::size_t from) {
+  std::size_t last = from + 1;
+  while (last < view.events.size() && !view.events[last].essential) ++last;
+  return {view.pieces.data() + from + 1, view.pieces.data() + last + 1};
+}
+std::span<const Piece> pieces_before(const SideView& view, std::size_t to) {
+  std::size_t first = to;
+  while (first > 0 && !view.events[first - 1].essential) --first;
+  return {view.pieces.data() + first, view.pieces.data() + to + 1};
+}
+
+enum class Verdict : std::uint8_t { less, equal, greater };
+
+/// What one stage says about the order of two events.
+template <class NT>
+std::optional<Verdict> order_in(const Shore& left, std::uint32_t left_node, const Shore& right, std::uint32_t right_node,
+                                const Stretch& if_less, const Stretch& if_greater, int bits) {
+  const MaybeSign sign = maybe_sign(parameter<NT>(left, left_node, bits) - parameter<NT>(right, right_node, bits));
+  if (sign == Sign::negative) return Verdict::less;
+  if (sign == Sign::positive) return Verdict::greater;
+  if (sign == Sign::zero) return Verdict::equal;
+  if (impossible<NT>(if_less, left, right, bits) && impossible<NT>(if_greater, left, right, bits)) return Verdict::equal;
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool EdgeJoiner::same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton& left, std::uint32_t left_site, const Skeleton& right,
+                           std::uint32_t right_site) {
+  if (left.waves == nullptr || right.waves == nullptr) return false;
+  const FacetSite &a = left.waves->sites[left_site], &b = right.waves->sites[right_site];
+  const HalfedgeId twin = in.refined.twin(h);
+  const bool a_comes_over = a.window != kNone && a.side == h % 3;
+  const bool b_comes_over = b.window != kNone && b.side == twin % 3;
+  if (a_comes_over == b_comes_over) return !a_comes_over && a.window == kNone && b.window == kNone && a.root == b.root;
+  const FacetSite &child = a_comes_over ? a : b, &other = a_comes_over ? b : a;
+  const WindowId parent = in.window(child.window).parent;
+  if (other.window != kNone) return parent == other.window;
+  return parent == kNone && child.root == other.root;
+}
+
+bool EdgeJoiner::identical(const View& view, const Event& a, const Event& b) const {
+  const auto same = [&](std::uint32_t left_piece, std::uint32_t right_piece) {
+    const Piece &l = view.of_left.pieces[left_piece], &r = view.of_right.pieces[right_piece];
+    return l.labels == r.labels && same_wave(in_, view.h, view.left, l.site, view.right, r.site);
+  };
+  return same(a.before, b.before) && same(a.after, b.after);
+}
+
+EdgeJoiner::Order EdgeJoiner::compare(const View& view, std::size_t left_event, std::size_t right_event) {
+  const Event &a = view.of_left.events[left_event], &b = view.of_right.events[right_event];
+  if (identical(view, a, b)) {
+    predicates::count(decisions_, Predicate::edge_tie, Stage::identity);
+    return Order::equal;
+  }
+  const Shore left{view.left, view.h % 3, false}, right{view.right, view.twin % 3, true};
+  const Stretch if_less{pieces_after(view.of_left, left_event), pieces_before(view.of_right, right_event)};
+  const Stretch if_greater{pieces_before(view.of_left, left_event), pieces_after(view.of_right, right_event)};
+  const auto verdict = [&]<class NT>(const NT&, Stage stage, int bits) {
+    const auto answer = order_in<NT>(left, a.node, right, b.node, if_less, if_greater, bits);
+    if (answer) predicates::count(decisions_, Predicate::edge_tie, stage);
+    return answer;
+  };
+  auto answer = verdict(FacetWaves::F(), Stage::filter, 0);
+  if (!answer) answer = verdict(FacetWaves::DD(), Stage::double_double, 0);
+  for (const int bits : {128, 256, 512, 1024})
+    if (!answer) answer = verdict(FacetWaves::M(), Stage::mpfr, bits);
+  if (!answer && has_exact(view.left) && has_exact(view.right)) answer = verdict(robust::Exact(), Stage::algebra, 0);
+  if (!answer) return Order::unknown;
+  return *answer == Verdict::less ? Order::less : *answer == Verdict::greater ? Order::greater : Order::equal;
+}
+
+/// A facet that was not tessellated shows the same label set as its neighbour all along their edge.
+void EdgeJoiner::check_uniform(const View& view) {
+  for (const Piece& l : view.of_left.pieces)
+    for (const Piece& r : view.of_right.pieces)
+      if (l.labels != r.labels)
+        throw InternalError("facets " + std::to_string(view.left.face) + " and " + std::to_string(view.right.face) +
+                            ": different label sets along their edge, but one of them is not tessellated");
+}
+
+Joint EdgeJoiner::join(HalfedgeId h, const Skeleton& left, const Skeleton& right) {
+  const HalfedgeId twin = in_.refined.twin(h);
+  const View view{h, twin, left, right, left.sides[h % 3], right.sides[twin % 3].reversed()};
+  std::vector<std::size_t> l, r;
+  for (std::size_t i = 0; i < view.of_left.events.size(); ++i)
+    if (view.of_left.events[i].essential) l.push_back(i);
+  for (std::size_t i = 0; i < view.of_right.events.size(); ++i)
+    if (view.of_right.events[i].essential) r.push_back(i);
+  Joint joint;
+  if (left.waves == nullptr || right.waves == nullptr) check_uniform(view);
+  joint.decided = merge(view, l, r, joint.stations);
+  if (joint.decided) joint.decided = insert_inner_events(view, joint);
+  if (!joint.decided)
+    predicates::undecided(decisions_, Predicate::edge_tie,
+                          "order of the points where regions meet on side " + std::to_string(h % 3) + " of facet " + std::to_string(left.face));
+  return joint;
+}
+
+/// Merges two ascending lists of events. False if an order is unknown.
+bool EdgeJoiner::merge(const View& view, std::span<const std::size_t> left, std::span<const std::size_t> right, std::vector<Station>& out) {
+  std::size_t i = 0, j = 0;
+  while (i < left.size() || j < right.size()) {
+    Order order = i == left.size() ? Order::greater : Order::less;
+    if (i < left.size() && j < right.size()) order = compare(view, left[i], right[j]);
+    if (order == Order::unknown) return false;
+    Station station;
+    if (order != Order::greater) station.node_left = view.of_left.events[left[i++]].node;
+    if (order != Order::less) station.node_right = view.of_right.events[right[j++]].node;
+    out.push_back(station);
+  }
+  return true;
+}
+
+/// The inner events [from, to) of one side that lie between two consecutive stations. Stations of the own side bound them by their order; the
+/// others are compared. Nothing if that fails.
+std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& view, bool of_left, std::size_t from, std::size_t to,
+                                                                 const Station* before, const Station* behind) {
+  const auto order_against = [&](std::size_t event, const Station* station) {
+    const std::uint32_t own = of_left ? station->node_left : station->node_right;
+    if (own != kNone) return station == before ? Order::greater : Order::less;
+    const auto& others = (of_left ? view.of_right : view.of_left).events;
+    const std::uint32_t node = of_left ? station->node_right : station->node_left;
+    const auto other = static_cast<std::size_t>(
+        std::find_if(others.begin(), others.end(), [&](const Event& e) { return e.node == node; }) - others.begin());
+    if (of_left) return compare(view, event, other);
+    const Order order = compare(view, other, event);
+    return order == Order::less ? Order::greater : order == Order::greater ? Order::less : order;
+  };
+  std::vector<std::size_t> found;
+  for (std::size_t event = from; event < to; ++event) {
+    const Order low = before == nullptr ? Order::greater : order_against(event, before);
+    const Order high = behind == nullptr ? Order::less : order_against(event, behind);
+    if (low == Order::unknown || high == Order::unknown) return std::nullopt;
+    if (low == Order::greater && high == Order::less) found.push_back(event);
+  }
+  return found;
+}
+
+/// Where the edge itself is a piece of a GVD edge, the waves change along it, too: the events that do not change a label set become stations.
+bool EdgeJoiner::insert_inner_events(const View& view, Joint& joint) {
+  const auto essential_from = [](const SideView& side, std::size_t k) {
+    while (k < side.events.size() && !side.events[k].essential) ++k;
+    return k;
+  };
+  std::vector<Station> all;
+  std::size_t i = 0, j = 0;  // events of either side from the last essential one on
+  for (std::size_t gap = 0; gap <= joint.stations.size(); ++gap) {
+    const Station* before = gap == 0 ? nullptr : &joint.stations[gap - 1];
+    const Station* behind = gap == joint.stations.size() ? nullptr : &joint.stations[gap];
+    const std::size_t i_end = essential_from(view.of_left, i), j_end = essential_from(view.of_right, j);
+    if (view.of_left.pieces[i].labels != view.of_right.pieces[j].labels) {
+      const auto l = inner_events(view, true, i, i_end, before, behind);
+      const auto r = inner_events(view, false, j, j_end, before, behind);
+      if (!l || !r || !merge(view, *l, *r, all)) return false;
+    }
+    if (behind == nullptr) break;
+    all.push_back(*behind);
+    if (behind->node_left != kNone) i = i_end + 1;
+    if (behind->node_right != kNone) j = j_end + 1;
+  }
+  joint.stations = std::move(all);
+  return true;
+}
+
+}  // namespace gvd::kernel::subdivision

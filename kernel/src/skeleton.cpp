@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <string>
+
+#include "gvd/kernel/error.hpp"
+#include "subdivision.hpp"
+
+namespace gvd::kernel::subdivision {
+namespace {
+
+using Node = FacetTessellation::Node;
+using TessPiece = FacetTessellation::Piece;
+
+[[noreturn]] void not_a_subdivision(FaceId face, const char* what) {
+  throw InternalError("facet " + std::to_string(face) + ": the tessellation is not a subdivision: " + what);
+}
+
+/// An arc as it leaves a node, with the sites clockwise (right) and counter-clockwise (left) of it.
+struct SiteSpoke {
+  Spoke spoke;
+  std::uint32_t right, left;
+};
+
+class Builder {
+ public:
+  explicit Builder(const BoundaryFacet& facet) : tess_(*facet.tessellation), sites_(facet.waves->sites) {
+    skeleton_.face = facet.face;
+    skeleton_.waves = facet.waves;
+    skeleton_.tessellation = facet.tessellation;
+  }
+
+  Skeleton build() {
+    collect_spokes();
+    for (std::uint8_t side = 0; side < 3; ++side) collect_side(side);
+    for (std::uint32_t n = 0; n < tess_.nodes.size(); ++n) turn_round(n);
+    for (auto& side : skeleton_.sides) mark_essential(side);
+    check_corners();
+    return std::move(skeleton_);
+  }
+
+ private:
+  LabelSetId labels(std::uint32_t site) const { return sites_[site].labels; }
+
+  void collect_spokes() {
+    at_node_.resize(tess_.nodes.size());
+    for (std::uint32_t a = 0; a < tess_.arcs.size(); ++a) {
+      const auto& arc = tess_.arcs[a];
+      if (labels(arc.left) != labels(arc.right)) skeleton_.kept.push_back(a);
+      at_node_[arc.from].push_back({{a, false}, arc.right, arc.left});
+      at_node_[arc.to].push_back({{a, true}, arc.left, arc.right});
+    }
+  }
+
+  bool is_corner(std::uint32_t node) const { return node == TessPiece::kNoNode || tess_.nodes[node].kind == Node::Kind::corner; }
+
+  void collect_side(std::uint8_t side) {
+    SideView& view = skeleton_.sides[side];
+    std::uint32_t last_end = TessPiece::kNoNode;
+    for (const auto& piece : tess_.outline) {
+      if (piece.side != side || is_empty(piece, side)) continue;
+      if (!view.pieces.empty()) {
+        if (is_corner(piece.from) || piece.from != last_end) not_a_subdivision(skeleton_.face, "a gap on a side");
+        const auto index = static_cast<std::uint32_t>(view.pieces.size());
+        view.events.push_back({piece.from, index - 1, index, false});
+      }
+      view.pieces.push_back({piece.site, labels(piece.site)});
+      last_end = piece.to;
+    }
+    if (view.pieces.empty() || !is_corner(last_end)) not_a_subdivision(skeleton_.face, "a side is not covered");
+  }
+
+  /// A region that touches the outline in one point only.
+  bool is_empty(const TessPiece& piece, std::uint8_t side) const {
+    if (is_corner(piece.from) != is_corner(piece.to)) return false;
+    if (!is_corner(piece.from)) return piece.from == piece.to;
+    return corner_of(piece.from, side) == corner_of(piece.to, static_cast<std::uint8_t>((side + 1) % 3));
+  }
+  /// The corner a piece begins or ends in; `implied` if no node names it.
+  std::uint8_t corner_of(std::uint32_t node, std::uint8_t implied) const {
+    return node == TessPiece::kNoNode ? implied : tess_.nodes[node].where;
+  }
+
+  /// Brings the arcs at node n into counter-clockwise order by their sites: each region has one sector at a node.
+  void turn_round(std::uint32_t n) {
+    auto& spokes = at_node_[n];
+    skeleton_.spokes.emplace_back();
+    const Node& node = tess_.nodes[n];
+    if (node.kind == Node::Kind::corner) skeleton_.corner_node[node.where] = n;
+    if (spokes.empty()) return;
+    const auto [first, last] = outer_sectors(n);
+    std::uint32_t sector = first;
+    for (std::size_t turned = 0; turned < spokes.size(); ++turned) {
+      const auto next = std::find_if(spokes.begin() + static_cast<std::ptrdiff_t>(turned), spokes.end(),
+                                     [&](const SiteSpoke& s) { return s.right == sector; });
+      if (next == spokes.end()) not_a_subdivision(skeleton_.face, "arcs at a node do not follow one another");
+      std::iter_swap(spokes.begin() + static_cast<std::ptrdiff_t>(turned), next);
+      const SiteSpoke& spoke = spokes[turned];
+      if (labels(spoke.right) != labels(spoke.left)) skeleton_.spokes.back().push_back(spoke.spoke);
+      sector = spoke.left;
+    }
+    if (sector != last) not_a_subdivision(skeleton_.face, "arcs at a node do not close");
+  }
+
+  /// The sites in the first and the last sector of a node, counter-clockwise.
+  std::pair<std::uint32_t, std::uint32_t> outer_sectors(std::uint32_t n) const {
+    const Node& node = tess_.nodes[n];
+    const SideView& side = skeleton_.sides[node.where % 3];
+    if (node.kind == Node::Kind::corner)
+      return {side.pieces.front().site, skeleton_.sides[(node.where + 2) % 3].pieces.back().site};
+    if (node.kind == Node::Kind::side) {
+      for (const Event& event : side.events)
+        if (event.node == n) return {side.pieces[event.after].site, side.pieces[event.before].site};
+      not_a_subdivision(skeleton_.face, "a node on a side is not on the outline");
+    }
+    return {at_node_[n].front().right, at_node_[n].front().right};
+  }
+
+  void mark_essential(SideView& side) const {
+    for (Event& event : side.events) {
+      event.essential =
+          side.pieces[event.before].labels != side.pieces[event.after].labels || !skeleton_.spokes[event.node].empty();
+    }
+  }
+
+  void check_corners() const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const LabelSetId first = skeleton_.sides[k].pieces.front().labels;
+      const LabelSetId last = skeleton_.sides[(k + 2) % 3].pieces.back().labels;
+      const std::uint32_t node = skeleton_.corner_node[k];
+      const bool arcs = node != kNone && !skeleton_.spokes[node].empty();
+      if (first != last && !arcs) not_a_subdivision(skeleton_.face, "the label set changes in a corner without an arc");
+    }
+  }
+
+  const FacetTessellation& tess_;
+  const std::vector<FacetSite>& sites_;
+  std::vector<std::vector<SiteSpoke>> at_node_;
+  Skeleton skeleton_;
+};
+
+}  // namespace
+
+SideView SideView::reversed() const {
+  SideView view;
+  view.pieces.assign(pieces.rbegin(), pieces.rend());
+  const auto count = static_cast<std::uint32_t>(pieces.size());
+  for (auto event = events.rbegin(); event != events.rend(); ++event)
+    view.events.push_back({event->node, count - 1 - event->after, count - 1 - event->before, event->essential});
+  return view;
+}
+
+Skeleton make_skeleton(const BoundaryFacet& facet) { return Builder(facet).build(); }
+
+Skeleton make_uniform_skeleton(FaceId face, LabelSetId labels) {
+  Skeleton skeleton;
+  skeleton.face = face;
+  skeleton.only_label = labels;
+  for (auto& side : skeleton.sides) side.pieces.push_back({kNone, labels});
+  return skeleton;
+}
+
+}  // namespace gvd::kernel::subdivision

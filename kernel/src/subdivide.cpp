@@ -1,0 +1,313 @@
+#include <algorithm>
+#include <string>
+
+#include "gvd/kernel/error.hpp"
+#include "subdivision.hpp"
+
+namespace gvd::kernel::subdivision {
+namespace {
+
+class Subdivider {
+ public:
+  Subdivider(const DiagramInput& in, predicates::Decisions& decisions) : in_(in), mesh_(in.refined), joiner_(in, decisions) {}
+
+  Subdivision run() {
+    make_skeletons();
+    check_uniform_faces();
+    join_sides();
+    make_vertex_places();
+    for (std::uint32_t f = 0; f < s_.facets.size(); ++f) make_darts(f);
+    pair_twins();
+    make_links();
+    index_ends();
+    return std::move(s_);
+  }
+
+ private:
+  void make_skeletons() {
+    s_.facet_of.assign(mesh_.face_count(), kNone);
+    for (const FaceId f : faces_to_subdivide()) {
+      s_.facet_of[f] = static_cast<std::uint32_t>(s_.facets.size());
+      const auto given = std::lower_bound(in_.facets.begin(), in_.facets.end(), f, [](const BoundaryFacet& a, FaceId b) { return a.face < b; });
+      if (given == in_.facets.end() || given->face != f)
+        s_.facets.push_back(make_uniform_skeleton(f, in_.face_labels[f]));
+      else if (given->tessellation->undecided)
+        s_.facets.push_back({.face = f, .undecided = true});
+      else
+        s_.facets.push_back(make_skeleton(*given));
+    }
+  }
+
+  /// The tessellated faces, and all parts of an input face of which one part is tessellated.
+  std::vector<FaceId> faces_to_subdivide() const {
+    std::vector<FaceId> faces;
+    for (const auto& facet : in_.facets) faces.push_back(facet.face);
+    if (mesh_.face_count() == in_.input.face_count()) return faces;
+    std::vector<std::uint8_t> touched(in_.input.face_count(), 0);
+    for (const FaceId f : faces) touched[mesh_.input_face(f)] = 1;
+    faces.clear();
+    for (FaceId f = 0; f < mesh_.face_count(); ++f)
+      if (touched[mesh_.input_face(f)] != 0) faces.push_back(f);
+    return faces;
+  }
+
+  /// Beside a face with one label set that is not tessellated, the other face shows the same set all along the edge.
+  void check_uniform_faces() const {
+    for (HalfedgeId h = 0; h < mesh_.halfedge_count(); ++h) {
+      const HalfedgeId twin = mesh_.twin(h);
+      if (twin == kNone || s_.facet_of[Mesh::face(h)] != kNone) continue;
+      const std::uint32_t facet = s_.facet_of[Mesh::face(twin)];
+      const LabelSetId labels = in_.face_labels[Mesh::face(h)];
+      if (facet == kNone) {
+        if (in_.face_labels[Mesh::face(twin)] != labels) not_tessellated(h);
+      } else if (!s_.facets[facet].undecided) {
+        for (const Piece& piece : s_.facets[facet].sides[twin % 3].pieces)
+          if (piece.labels != labels) not_tessellated(h);
+      }
+    }
+  }
+
+  [[noreturn]] static void not_tessellated(HalfedgeId h) {
+    throw InternalError("facet " + std::to_string(Mesh::face(h)) + " is not tessellated, but its label set differs from that beyond side " +
+                        std::to_string(h % 3));
+  }
+
+  const Skeleton* decided_facet(HalfedgeId h) const {
+    if (h == kNone) return nullptr;
+    const std::uint32_t f = s_.facet_of[Mesh::face(h)];
+    return f == kNone || s_.facets[f].undecided ? nullptr : &s_.facets[f];
+  }
+
+  /// Finds the stations of every side, and gives each a place.
+  void join_sides() {
+    stations_.resize(3 * s_.facets.size());
+    open_.assign(3 * s_.facets.size(), 0);
+    for (std::uint32_t f = 0; f < s_.facets.size(); ++f) {
+      if (s_.facets[f].undecided) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const HalfedgeId h = 3 * s_.facets[f].face + k;
+        const HalfedgeId twin = mesh_.twin(h);
+        const Skeleton* other = decided_facet(twin);
+        if (other == nullptr)
+          take_own_events(f, k, twin != kNone && s_.facet_of[Mesh::face(twin)] != kNone);
+        else if (h < twin)
+          join_over(h, f, k, twin, *other);
+      }
+    }
+  }
+
+  void take_own_events(std::uint32_t f, std::uint32_t k, bool open) {
+    for (const Event& event : s_.facets[f].sides[k].events)
+      if (event.essential) stations_[3 * f + k].push_back({kNone, event.node, kNone});
+    open_[3 * f + k] = open ? 1 : 0;
+    give_places(3 * s_.facets[f].face + k, f, kNone, stations_[3 * f + k], open);
+  }
+
+  void join_over(HalfedgeId h, std::uint32_t f, std::uint32_t k, HalfedgeId twin, const Skeleton& other) {
+    const std::uint32_t g = s_.facet_of[Mesh::face(twin)];
+    Joint joint = joiner_.join(h, s_.facets[f], other);
+    if (!joint.decided) {
+      take_own_events(f, k, true);
+      take_own_events(g, twin % 3, true);
+      return;
+    }
+    give_places(h, f, g, joint.stations, false);
+    auto& mine = stations_[3 * f + k];
+    auto& theirs = stations_[3 * g + twin % 3];
+    mine = joint.stations;
+    theirs.assign(joint.stations.rbegin(), joint.stations.rend());
+    for (Station& station : theirs) std::swap(station.node_left, station.node_right);
+  }
+
+  void give_places(HalfedgeId h, std::uint32_t f, std::uint32_t g, std::vector<Station>& stations, bool open) {
+    const HalfedgeId twin = mesh_.twin(h);
+    for (Station& station : stations) {
+      station.place = static_cast<std::uint32_t>(s_.places.size());
+      Place place{.kind = Place::Kind::edge, .boundary = twin == kNone, .open = open, .halfedge = std::min(h, twin)};
+      const bool both = station.node_left != kNone && station.node_right != kNone;
+      const bool mine = both ? mesh_.input_face(s_.facets[f].face) <= mesh_.input_face(s_.facets[g].face) : station.node_left != kNone;
+      place.facet = mine ? f : g;
+      place.node = mine ? station.node_left : station.node_right;
+      s_.places.push_back(place);
+    }
+  }
+
+  void make_vertex_places() {
+    s_.vertex_place.assign(mesh_.vertex_count(), kNone);
+    for (std::uint32_t f = 0; f < s_.facets.size(); ++f) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const VertexId v = mesh_.origin(3 * s_.facets[f].face + k);
+        if (s_.vertex_place[v] == kNone) {
+          s_.vertex_place[v] = static_cast<std::uint32_t>(s_.places.size());
+          s_.places.push_back({.kind = Place::Kind::vertex, .boundary = mesh_.is_boundary(v), .vertex = v});
+        }
+        Place& place = s_.places[s_.vertex_place[v]];
+        place.open |= s_.facets[f].undecided || open_[3 * f + k] != 0 || open_[3 * f + (k + 2) % 3] != 0;
+      }
+    }
+  }
+
+  // ---- darts ----
+
+  void make_darts(std::uint32_t f) {
+    if (s_.facets[f].undecided) return;
+    const Skeleton& facet = s_.facets[f];
+    node_place_.assign(facet.tessellation == nullptr ? 0 : facet.tessellation->nodes.size(), kNone);
+    for (std::uint32_t k = 0; k < 3; ++k) make_side_darts(f, k);
+    make_arc_darts(f);
+    link_outline(f);
+    link_inner_nodes(facet);
+  }
+
+  std::uint32_t add_dart(Dart dart) {
+    s_.darts.push_back(dart);
+    return static_cast<std::uint32_t>(s_.darts.size() - 1);
+  }
+
+  void make_side_darts(std::uint32_t f, std::uint32_t k) {
+    const Skeleton& facet = s_.facets[f];
+    const HalfedgeId h = 3 * facet.face + k;
+    const SideView& view = facet.sides[k];
+    const VertexId v = mesh_.origin(h);
+    if (facet.corner_node[k] != kNone) node_place_[facet.corner_node[k]] = s_.vertex_place[v];
+    std::uint32_t piece = 0;
+    side_first_[k] = add_dart({.from = s_.vertex_place[v], .facet = f, .halfedge = h, .site = view.pieces[0].site, .labels = view.pieces[0].labels});
+    for (const Station& station : stations_[3 * f + k]) {
+      if (station.node_left != kNone) {
+        node_place_[station.node_left] = station.place;
+        const auto event = std::find_if(view.events.begin(), view.events.end(), [&](const Event& e) { return e.node == station.node_left; });
+        piece = event->after;
+      }
+      add_dart({.from = station.place, .facet = f, .halfedge = h, .site = view.pieces[piece].site, .labels = view.pieces[piece].labels});
+    }
+  }
+
+  void make_arc_darts(std::uint32_t f) {
+    const Skeleton& facet = s_.facets[f];
+    if (facet.tessellation == nullptr) return;
+    arc_dart_.assign(facet.tessellation->arcs.size(), kNone);
+    for (const std::uint32_t a : facet.kept) {
+      const auto& arc = facet.tessellation->arcs[a];
+      const std::uint32_t from = place_of(f, arc.from), to = place_of(f, arc.to);
+      const std::uint32_t d = add_dart({.from = from, .facet = f, .arc = a, .site = arc.left, .labels = facet.waves->sites[arc.left].labels});
+      add_dart({.from = to, .facet = f, .arc = a, .site = arc.right, .labels = facet.waves->sites[arc.right].labels});
+      s_.darts[d].twin = d + 1;
+      s_.darts[d + 1].twin = d;
+      arc_dart_[a] = d;
+    }
+  }
+
+  std::uint32_t place_of(std::uint32_t f, std::uint32_t node) {
+    std::uint32_t& place = node_place_[node];
+    if (place == kNone) {
+      if (s_.facets[f].tessellation->nodes[node].kind != FacetTessellation::Node::Kind::inside)
+        throw InternalError("facet " + std::to_string(s_.facets[f].face) + ": an arc ends on the outline where there is no place");
+      place = static_cast<std::uint32_t>(s_.places.size());
+      s_.places.push_back({.kind = Place::Kind::inside, .facet = f, .node = node});
+    }
+    return place;
+  }
+
+  std::uint32_t outgoing(const Spoke& spoke) const { return arc_dart_[spoke.arc] + (spoke.reversed ? 1 : 0); }
+  std::uint32_t incoming(const Spoke& spoke) const { return arc_dart_[spoke.arc] + (spoke.reversed ? 0 : 1); }
+
+  /// Links the darts that meet at a place of the outline: `in` arrives along a side, `out` leaves along a side, arcs stand between.
+  void link_at(std::uint32_t in, std::uint32_t out, const std::vector<Spoke>* spokes) {
+    std::uint32_t target = out;
+    if (spokes != nullptr) {
+      for (const Spoke& spoke : *spokes) {
+        s_.darts[incoming(spoke)].next = target;
+        target = outgoing(spoke);
+      }
+    }
+    s_.darts[in].next = target;
+  }
+
+  void link_outline(std::uint32_t f) {
+    const Skeleton& facet = s_.facets[f];
+    const auto spokes_of = [&](std::uint32_t node) { return node == kNone ? nullptr : &facet.spokes[node]; };
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      std::uint32_t dart = side_first_[k];
+      for (const Station& station : stations_[3 * f + k]) {
+        link_at(dart, dart + 1, spokes_of(station.node_left));
+        ++dart;
+      }
+      const std::uint32_t corner = (k + 1) % 3;
+      link_at(dart, side_first_[corner], spokes_of(facet.corner_node[corner]));
+    }
+  }
+
+  void link_inner_nodes(const Skeleton& facet) {
+    if (facet.tessellation == nullptr) return;
+    for (std::uint32_t n = 0; n < facet.spokes.size(); ++n) {
+      const auto& spokes = facet.spokes[n];
+      if (facet.tessellation->nodes[n].kind != FacetTessellation::Node::Kind::inside || spokes.empty()) continue;
+      std::uint32_t target = outgoing(spokes.back());
+      for (const Spoke& spoke : spokes) {
+        s_.darts[incoming(spoke)].next = target;
+        target = outgoing(spoke);
+      }
+    }
+  }
+
+  // ---- over the edges ----
+
+  /// Darts along the two sides of a joined edge run against one another.
+  void pair_twins() {
+    std::vector<std::array<std::uint32_t, 2>> range(3 * s_.facets.size(), {0, 0});
+    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+      const Dart& dart = s_.darts[d];
+      if (dart.halfedge == kNone) continue;
+      auto& r = range[3 * dart.facet + dart.halfedge % 3];
+      if (r[1] == 0) r[0] = d;
+      r[1] = d + 1;
+    }
+    for (std::uint32_t side = 0; side < range.size(); ++side) {
+      const std::uint32_t f = side / 3;
+      if (s_.facets[f].undecided || open_[side] != 0) continue;
+      const HalfedgeId twin = mesh_.twin(3 * s_.facets[f].face + side % 3);
+      if (decided_facet(twin) == nullptr) continue;
+      const auto& theirs = range[3 * s_.facet_of[Mesh::face(twin)] + twin % 3];
+      for (std::uint32_t d = range[side][0]; d < range[side][1]; ++d) s_.darts[d].twin = theirs[1] - 1 - (d - range[side][0]);
+    }
+  }
+
+  void make_links() {
+    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+      const Dart& dart = s_.darts[d];
+      if (dart.twin == kNone || dart.twin < d || s_.darts[dart.twin].labels == dart.labels) continue;
+      s_.links.push_back({d, dart.from, s_.to(d), {dart.labels, s_.darts[dart.twin].labels}});
+    }
+  }
+
+  void index_ends() {
+    s_.end_start.assign(s_.places.size() + 1, 0);
+    for (const Link& link : s_.links) {
+      ++s_.end_start[link.from + 1];
+      ++s_.end_start[link.to + 1];
+    }
+    for (std::size_t p = 0; p < s_.places.size(); ++p) s_.end_start[p + 1] += s_.end_start[p];
+    std::vector<std::uint32_t> fill(s_.end_start.begin(), s_.end_start.end() - 1);
+    s_.ends.resize(2 * s_.links.size());
+    for (std::uint32_t l = 0; l < s_.links.size(); ++l) {
+      s_.ends[fill[s_.links[l].from]++] = {l, false};
+      s_.ends[fill[s_.links[l].to]++] = {l, true};
+    }
+  }
+
+  const DiagramInput& in_;
+  const Mesh& mesh_;
+  EdgeJoiner joiner_;
+  Subdivision s_;
+  std::vector<std::vector<Station>> stations_;  // per facet and side; node_left is the facet's own node
+  std::vector<std::uint8_t> open_;              // per facet and side: nothing is known beyond
+  // of the facet whose darts are being made
+  std::vector<std::uint32_t> node_place_, arc_dart_;
+  std::array<std::uint32_t, 3> side_first_{};
+};
+
+}  // namespace
+
+Subdivision subdivide(const DiagramInput& in, predicates::Decisions& decisions) { return Subdivider(in, decisions).run(); }
+
+}  // namespace gvd::kernel::subdivision
