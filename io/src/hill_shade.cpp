@@ -11,7 +11,7 @@ using kernel::Point;
 namespace {
 
 constexpr Point kLight = {-0.5, 0.5, 0.7071067811865476};
-constexpr double kDarkest = 70, kBrightest = 252;  // grey of the 2nd and the 98th percentile
+constexpr double kDarkest = 55, kBrightest = 252;  // grey of the 2nd and the 98th percentile
 constexpr double kFlatShare = 0.35;                // how much of the shade is that of the plane of the face: the TIN stays visible
 
 double light_on(const Point& normal) {

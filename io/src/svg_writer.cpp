@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ostream>
@@ -19,10 +20,10 @@ namespace gvd::io {
 namespace {
 
 // Sizes in pixels.
-constexpr double kMap = 1200, kMargin = 36, kHeader = 84, kFooter = 96, kLeastWidth = 760;
+constexpr double kMap = 1200, kMargin = 36, kHeader = 84, kFooter = 96, kLeastWidth = 960;
 constexpr std::size_t kMostNumberedSources = 60;
-constexpr std::array<const char*, 10> kPalette = {"#4e9fd1", "#f2a541", "#6bbf73", "#e06c75", "#9d7fd1",
-                                                  "#e8d44d", "#4cc3b5", "#d987bd", "#b08a5b", "#93a8ac"};
+constexpr std::array<const char*, 10> kPalette = {"#3f97d8", "#f59f2c", "#56bd62", "#e5616c", "#9573dc",
+                                                  "#ecd63a", "#35c4b3", "#e07fc0", "#b5824a", "#8fd14f"};
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -80,9 +81,11 @@ class Map {
 
  private:
   void header() {
-    out_ << fmt::format("<title>Geodesic Voronoi diagram of {}</title>\n", escaped(view_.mesh_name));
+    std::string name = escaped(view_.mesh_name);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    out_ << fmt::format("<title>Geodesic Voronoi diagram of {}</title>\n", name);
     out_ << fmt::format("<text x=\"{}\" y=\"40\" font-size=\"25\" font-weight=\"bold\" fill=\"#22303a\">Geodesic Voronoi diagram of {}</text>\n",
-                        kMargin, escaped(view_.mesh_name));
+                        kMargin, name);
     const auto& summary = view_.summary;
     out_ << fmt::format("<text x=\"{}\" y=\"65\" font-size=\"15\" fill=\"#5a6872\">{} &#183; {} &#183; {} &#183; {} &#183; {} &#183; {}</text>\n", kMargin,
                         counted(view_.mesh.face_count(), "triangle", "triangles"), counted(summary.sources, "source", "sources"),
@@ -126,7 +129,7 @@ class Map {
       paths[sources.front()] += "Z";
     }
     const auto colour = colour_cells(diagram, kPalette.size());
-    out_ << "<g opacity=\"0.5\" stroke-width=\"0.6\" stroke-linejoin=\"round\">\n";
+    out_ << "<g opacity=\"0.45\" stroke-width=\"0.6\" stroke-linejoin=\"round\">\n";
     for (std::size_t c = 0; c < paths.size(); ++c)
       if (!paths[c].empty()) out_ << fmt::format("<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>\n", kPalette[colour[c]], paths[c]);
     out_ << "</g>\n";
@@ -202,25 +205,27 @@ class Map {
             "paint-order=\"stroke\">\n";
     for (std::size_t s = 0; s < view_.sources.size(); ++s) {
       const auto q = plan_.to_pixels(position(view_.sources[s].at));
-      out_ << fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", q[0] + 7, q[1] - 6, s);
+      const bool left = q[0] > plan_.width() - 28;  // no room on the right
+      out_ << fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\"{}>{}</text>\n", left ? q[0] - 7 : q[0] + 7, std::max(q[1] - 6, 12.0),
+                          left ? " text-anchor=\"end\"" : "", s);
     }
     out_ << "</g>\n";
   }
 
   void footer(double width, double top) {
     scale_bar(kMargin, top + 52);
-    double x = width - kMargin - 510;
+    double x = width - kMargin - 590;
     const double y = top + 48;
     out_ << "<g font-size=\"14\" fill=\"#22303a\">\n";
     out_ << fmt::format("<circle cx=\"{0}\" cy=\"{1}\" r=\"5\" fill=\"#e03131\" stroke=\"#fff\" stroke-width=\"1.3\"/>", x, y);
     out_ << fmt::format("<text x=\"{}\" y=\"{}\">source</text>\n", x + 12, y + 5);
-    x += 90;
+    x += 85;
     out_ << fmt::format("<path d=\"M{0} {1}h26\" stroke=\"#10222e\" stroke-width=\"1.8\"/>", x, y);
     out_ << fmt::format("<text x=\"{}\" y=\"{}\">Voronoi edge</text>\n", x + 34, y + 5);
-    x += 145;
+    x += 150;
     out_ << fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"3\" fill=\"#fff\" stroke=\"#10222e\" stroke-width=\"1.7\"/>", x, y);
     out_ << fmt::format("<text x=\"{}\" y=\"{}\">Voronoi vertex</text>\n", x + 12, y + 5);
-    x += 135;
+    x += 145;
     out_ << fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"2.2\" fill=\"#c2255c\"/>", x, y);
     out_ << fmt::format("<text x=\"{}\" y=\"{}\">break point (conic changes)</text>\n</g>\n", x + 10, y + 5);
   }
