@@ -49,12 +49,12 @@ std::string reason(Status status) {
   }
 }
 
-void note_duplicates(const kernel::Solution& solution) {
+/// Up to a few notes in full, and how many more there are.
+template <class Range, class Sentence>
+void note_each(const Range& range, const char* more, Sentence&& sentence) {
   constexpr std::size_t kMostShown = 5;
-  const auto duplicates = solution.duplicates();
-  for (std::size_t i = 0; i < std::min(duplicates.size(), kMostShown); ++i)
-    note(fmt::format("source {} lies at the same point as source {}", duplicates[i][0], duplicates[i][1]));
-  if (duplicates.size() > kMostShown) note(fmt::format("... and {} more duplicate sources", duplicates.size() - kMostShown));
+  for (std::size_t i = 0; i < std::min(range.size(), kMostShown); ++i) note(sentence(range[i]));
+  if (range.size() > kMostShown) note(fmt::format("... and {} more {}", range.size() - kMostShown, more));
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ kernel::Mesh load_mesh(const Options& options) {
 Solved::Solved(const Options& options, bool diagram)
     : options_(options),
       mesh_(load_mesh(options)),
-      sources_(load_sources(mesh_, options)),
+      sources_(io::parse_source_spec(options.sources, options.seed, mesh_, source_report_)),
       solution_(run(mesh_, sources_, options, diagram)) {}
 
 io::ResultView Solved::view(const Options& options) const {
@@ -86,9 +86,15 @@ io::ResultView Solved::view(const Options& options) const {
 }
 
 void Solved::report_sources() const {
-  note_duplicates(solution_);
-  for (const auto hidden : solution_.hidden())
-    note(fmt::format("source {} is hidden: another source reaches it with less than its weight, its cell is empty", hidden));
+  note_each(source_report_.projected, "sources given as p X Y Z", [](const io::ProjectedSource& p) {
+    return fmt::format("source {} was moved by {} to the nearest surface point", p.source, p.distance);
+  });
+  note_each(solution_.duplicates(), "duplicate sources", [](const std::array<kernel::SourceId, 2>& pair) {
+    return fmt::format("source {} lies at the same point as source {}", pair[0], pair[1]);
+  });
+  note_each(solution_.hidden(), "hidden sources", [](kernel::SourceId source) {
+    return fmt::format("source {} is hidden: another source reaches it with less than its weight, its cell is empty", source);
+  });
   if (const auto count = solution_.summary().unreachable_vertices; count != 0)
     note(fmt::format("{} vertices are unreachable: no source lies in their component", count));
 }

@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "gvd/io/result_view.hpp"
+#include "gvd/io/source_reader.hpp"
 #include "gvd/io/staged_files.hpp"
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/kernel/solver.hpp"
@@ -14,8 +15,6 @@ namespace gvd::cli {
 
 /// Reads and validates the mesh.
 kernel::Mesh load_mesh(const Options& options);
-/// The sources of the file or of the random specification.
-std::vector<kernel::Source> load_sources(const kernel::Mesh& mesh, const Options& options);
 
 /// What `distance` and `compute` share: read, solve with progress, limits and signals, write, report.
 class Solved {
@@ -35,6 +34,7 @@ class Solved {
 
   const Options& options_;
   kernel::Mesh mesh_;
+  io::SourceReport source_report_;
   std::vector<kernel::Source> sources_;
   kernel::Solution solution_;
 };

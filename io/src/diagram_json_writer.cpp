@@ -132,12 +132,26 @@ Json side_json(const kernel::CellPiece::Side& side) {
   return json;
 }
 
+Json ring_json(const std::vector<kernel::CellPiece::Side>& ring) {
+  Json json = Json::array();
+  for (const auto& side : ring) json.push_back(side_json(side));
+  return json;
+}
+
 Json piece_json(const kernel::CellPiece& piece) {
   Json json;
   json["face"] = piece.face;
-  json["labels"] = piece.labels;
-  json["outline"] = Json::array();
-  for (const auto& side : piece.outline) json["outline"].push_back(side_json(side));
+  json["labels"] = id_json(piece.labels);
+  json["outline"] = ring_json(piece.outline);
+  json["holes"] = Json::array();
+  for (const auto& hole : piece.holes) json["holes"].push_back(ring_json(hole));
+  return json;
+}
+
+Json shared_json(const kernel::SharedRegion& region) {
+  Json json;
+  json["labels"] = region.labels;
+  json["area"] = region.area;
   return json;
 }
 
@@ -228,8 +242,11 @@ void write_diagram_json(std::ostream& out, const ResultView& view) {
   json.array("vertices", diagram.vertices, vertex_json);
   json.array("break_points", diagram.break_points, point_on_edge_json<kernel::BreakPoint>);
   json.array("boundary_meetings", diagram.boundary_meetings, point_on_edge_json<kernel::BoundaryMeeting>);
+  json.array("open_ends", diagram.open_ends, point_on_edge_json<kernel::BoundaryMeeting>);
   json.array("cells", diagram.cells, cell_json);
   json.array("dual", diagram.dual, dual_json);
+  json.array("shared_regions", diagram.shared, shared_json);
+  json.member("undecided_faces", diagram.undecided_faces);
   json.member("face_labels", face_labels_json(diagram));
   json.array("pieces", diagram.pieces, piece_json);
   json.end();

@@ -41,13 +41,19 @@ std::vector<std::int64_t> SampledOutlines::arc(std::uint32_t index) const {
   return chain;
 }
 
-std::vector<std::int64_t> SampledOutlines::outline(const kernel::CellPiece& piece) const {
+std::vector<std::vector<std::int64_t>> SampledOutlines::rings(const kernel::CellPiece& piece) const {
+  std::vector<std::vector<std::int64_t>> rings = {ring(piece.face, piece.outline)};
+  for (const auto& hole : piece.holes) rings.push_back(ring(piece.face, hole));
+  return rings;
+}
+
+std::vector<std::int64_t> SampledOutlines::ring(kernel::FaceId face, const std::vector<kernel::CellPiece::Side>& sides) const {
   std::vector<std::int64_t> polygon;
-  for (const auto& side : piece.outline) {
+  for (const auto& side : sides) {
     if (side.arc == kernel::kNone) {
       const bool corner = (side.from & kernel::CellPiece::kCorner) != 0;
       const auto k = side.from & ~kernel::CellPiece::kCorner;
-      polygon.push_back(corner ? std::int64_t{mesh_.origin(3 * piece.face + k)} : index_of(side.from));
+      polygon.push_back(corner ? std::int64_t{mesh_.origin(3 * face + k)} : index_of(side.from));
     } else {
       auto chain = arc(side.arc);
       if (side.reversed) std::reverse(chain.begin(), chain.end());

@@ -20,10 +20,11 @@ class SampledOutlines {
   std::int64_t index_of(std::uint32_t diagram_point) const;
   /// Points along an arc, ends included.
   std::vector<std::int64_t> arc(std::uint32_t arc) const;
-  /// The closed outline of a piece, counter-clockwise, first point not repeated.
-  std::vector<std::int64_t> outline(const kernel::CellPiece& piece) const;
+  /// The closed rings of a piece: the outline, counter-clockwise, then the holes, clockwise; first points not repeated.
+  std::vector<std::vector<std::int64_t>> rings(const kernel::CellPiece& piece) const;
 
  private:
+  std::vector<std::int64_t> ring(kernel::FaceId face, const std::vector<kernel::CellPiece::Side>& sides) const;
   void add_arc(std::uint32_t index, const std::vector<ArcSample>& samples);
 
   const kernel::Mesh& mesh_;

@@ -106,6 +106,11 @@ class Map {
     const auto q = plan_.to_pixels(p);
     return fmt::format("{:.2f} {:.2f}", q[0], q[1]);
   }
+  /// One more corner of a path: a move for the first, else a line.
+  void extend(std::string& path, bool first, const kernel::Point& p) const {
+    path += first ? 'M' : 'L';
+    path += pixel(p);
+  }
   const kernel::Point& listed(std::int64_t point) const { return outlines_.points()[static_cast<std::size_t>(point)]; }
 
   /// Opaque cells in a group that is translucent as a whole: seams between the pieces of a cell do not show.
@@ -115,18 +120,16 @@ class Map {
     std::vector<std::string> paths(diagram.cells.size());
     for (std::size_t c = 0; c < loops.size(); ++c)
       for (const auto& loop : loops[c]) {
-        for (std::size_t i = 0; i < loop.size(); ++i) paths[c] += (i == 0 ? "M" : "L") + pixel(view_.mesh.point(loop[i]));
+        for (std::size_t i = 0; i < loop.size(); ++i) extend(paths[c], i == 0, view_.mesh.point(loop[i]));
         paths[c] += "Z";
       }
     for (const auto& piece : diagram.pieces) {
       const auto& sources = diagram.label_sets[piece.labels];
       if (sources.empty() || !plan_.is_seen(piece.face)) continue;
-      const char* command = "M";
-      for (const auto point : outlines_.outline(piece)) {
-        paths[sources.front()] += command + pixel(listed(point));
-        command = "L";
+      for (const auto& ring : outlines_.rings(piece)) {
+        for (std::size_t i = 0; i < ring.size(); ++i) extend(paths[sources.front()], i == 0, listed(ring[i]));
+        paths[sources.front()] += "Z";
       }
-      paths[sources.front()] += "Z";
     }
     const auto colour = colour_cells(diagram, kPalette.size());
     out_ << "<g opacity=\"0.45\" stroke-width=\"0.6\" stroke-linejoin=\"round\">\n";
@@ -155,8 +158,8 @@ class Map {
           continue;
         }
         const auto chain = outlines_.arc(index);
-        if (drawn == kernel::kNone) path += "M" + pixel(listed(chain.front()));
-        for (std::size_t i = 1; i < chain.size(); ++i) path += "L" + pixel(listed(chain[i]));
+        if (drawn == kernel::kNone) extend(path, true, listed(chain.front()));
+        for (std::size_t i = 1; i < chain.size(); ++i) extend(path, false, listed(chain[i]));
         drawn = face;
       }
     }

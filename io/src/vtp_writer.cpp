@@ -11,7 +11,7 @@ namespace gvd::io {
 
 namespace {
 
-enum class PointKind : std::int32_t { sample = 0, crossing = 1, break_point = 2, gvd_vertex = 3, boundary_meeting = 4 };
+enum class PointKind : std::int32_t { sample = 0, crossing = 1, break_point = 2, gvd_vertex = 3, boundary_meeting = 4, open_end = 5 };
 
 /// The part of `SampledOutlines::points` that the GVD edges use, numbered anew.
 class UsedPoints {
@@ -71,6 +71,7 @@ void add_kinds(const ResultView& view, const SampledOutlines& outlines, UsedPoin
     for (const auto node : arc.node) mark(node, PointKind::crossing);
   for (const auto& x : diagram.break_points) mark(x.point, PointKind::break_point);
   for (const auto& x : diagram.boundary_meetings) mark(x.point, PointKind::boundary_meeting);
+  for (const auto& x : diagram.open_ends) mark(x.point, PointKind::open_end);
   for (const auto& x : diagram.vertices) mark(x.point, PointKind::gvd_vertex);
   data.point_ids = {{"kind", kinds}};
 }
@@ -106,11 +107,15 @@ void add_whole_face(const ResultView& view, kernel::FaceId face, CellTriangles& 
 
 void add_piece(const ResultView& view, const SampledOutlines& outlines, const kernel::CellPiece& piece, CellTriangles& triangles,
                PolyData& data) {
-  const auto polygon = outlines.outline(piece);
   const FacePlane plane(view.mesh, piece.face);
-  std::vector<PlanePoint> flat;
-  for (const auto point : polygon) flat.push_back(plane.to_plane(outlines.points()[static_cast<std::size_t>(point)]));
-  for (const auto& t : triangulate_polygon(flat)) triangles.add(data, {polygon[t[0]], polygon[t[1]], polygon[t[2]]}, piece.labels, piece.face);
+  std::vector<std::int64_t> ids;
+  std::vector<std::vector<PlanePoint>> flat;
+  for (const auto& ring : outlines.rings(piece)) {
+    ids.insert(ids.end(), ring.begin(), ring.end());
+    auto& points = flat.emplace_back();
+    for (const auto point : ring) points.push_back(plane.to_plane(outlines.points()[static_cast<std::size_t>(point)]));
+  }
+  for (const auto& t : triangulate_polygon(flat)) triangles.add(data, {ids[t[0]], ids[t[1]], ids[t[2]]}, piece.labels, piece.face);
 }
 
 std::vector<double> all_distances(const ResultView& view, const SampledOutlines& outlines) {
