@@ -9,6 +9,7 @@
 
 #include "base64.hpp"
 #include "cell_regions.hpp"
+#include "drawn_source.hpp"
 #include "gvd/io/vtp_writer.hpp"
 #include "hill_shade.hpp"
 #include "plan_view.hpp"
@@ -121,14 +122,15 @@ class Map {
     for (std::size_t c = 0; c < loops.size(); ++c)
       for (const auto& loop : loops[c]) {
         for (std::size_t i = 0; i < loop.size(); ++i) extend(paths[c], i == 0, view_.mesh.point(loop[i]));
-        paths[c] += "Z";
+        paths[c] += 'Z';
       }
     for (const auto& piece : diagram.pieces) {
-      const auto& sources = diagram.label_sets[piece.labels];
-      if (sources.empty() || !plan_.is_seen(piece.face)) continue;
+      const auto source = drawn_source(diagram, piece.labels);
+      if (source < 0 || !plan_.is_seen(piece.face)) continue;
+      auto& path = paths[static_cast<std::size_t>(source)];
       for (const auto& ring : outlines_.rings(piece)) {
-        for (std::size_t i = 0; i < ring.size(); ++i) extend(paths[sources.front()], i == 0, listed(ring[i]));
-        paths[sources.front()] += "Z";
+        for (std::size_t i = 0; i < ring.size(); ++i) extend(path, i == 0, listed(ring[i]));
+        path += 'Z';
       }
     }
     const auto colour = colour_cells(diagram, kPalette.size());
