@@ -166,6 +166,8 @@ class Evaluation {
 };
 
 constexpr int kFirstBits = 128;
+// How long to look for a sign other than zero if zero could not be proved.
+constexpr long kBitsWithoutProof = 1L << 14;
 
 NodePtr make(Quadratic value) { return std::make_shared<const Exact::Node>(std::move(value)); }
 NodePtr make(Operation operation, NodePtr left, NodePtr right = nullptr) {
@@ -212,13 +214,13 @@ MaybeSign Exact::Node::sign() const {
 
 MaybeSign Exact::Node::decide_sign() const {
   if (const Quadratic* leaf = quadratic()) return leaf->sign();
-  long separation = 0;  // not yet computed
-  for (long bits = kFirstBits; bits <= 2 * kMostBits; bits *= 2) {
+  std::optional<long> separation;
+  for (long bits = kFirstBits; !separation || bits <= (*separation <= kMostBits ? 4 * kMostBits : kBitsWithoutProof); bits *= 2) {
     Evaluation evaluation(static_cast<int>(bits));
     const MpfrInterval& value = evaluation.of(*this);
     if (const MaybeSign sign = value.sign()) return sign;
-    if (separation == 0) separation = separation_bits(*this);
-    if (value.is_below_power_of_two(-separation)) return Sign::zero;
+    if (!separation) separation = separation_bits(*this);
+    if (value.is_below_power_of_two(-*separation)) return Sign::zero;
   }
   return std::nullopt;
 }

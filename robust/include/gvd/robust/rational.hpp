@@ -8,6 +8,8 @@
 
 namespace gvd::robust {
 
+// Rationals are in lowest terms here and everywhere (as GMP's arithmetic leaves them; call canonicalize() after setting parts by hand).
+
 /// x as a rational, exactly. Throws std::domain_error if x is not finite.
 mpq_class exact_rational(double x);
 
