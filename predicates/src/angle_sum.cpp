@@ -1,11 +1,10 @@
 #include "gvd/predicates/angle_sum.hpp"
 
 #include <cmath>
-#include <vector>
 
+#include "formal_angle_product.hpp"
 #include "gvd/robust/ball.hpp"
 #include "gvd/robust/double_double.hpp"
-#include "gvd/robust/exact.hpp"
 #include "gvd/robust/mpfr_float.hpp"
 #include "gvd/robust/rational.hpp"
 
@@ -20,10 +19,16 @@ using robust::Stage;
 /// Sizes within which products of four numbers neither overflow nor lose more by underflow than the bound has to spare.
 constexpr double kSmallest = 1e-140, kLargest = 1e140;
 
-/// How many quarter turns bring x + i y to where the real part is positive and at least as large as the imaginary one.
-int quarter_of(double x, double y) noexcept {
-  if (x - y >= 0) return x + y >= 0 ? 0 : 3;
-  return x + y >= 0 ? 1 : 2;
+/// Turns x + i y back by quarter turns until the real part is positive and at least as large as the imaginary one; returns how many. Without branches,
+/// which no processor could foresee.
+int turn_by_numbers(double& x, double& y) noexcept {
+  const bool right_or_down = x - y >= 0, right_or_up = x + y >= 0;
+  const bool odd = right_or_down != right_or_up;
+  const double a = odd ? y : x, b = odd ? -x : y;
+  const double sign = right_or_up ? 1 : -1;
+  x = sign * a;
+  y = sign * b;
+  return odd ? (right_or_up ? 1 : 3) : (right_or_up ? 0 : 2);
 }
 
 template <class NT>
@@ -104,46 +109,6 @@ TurnedProduct<NT> product_of(std::span<const ExactCorner> fan, int bits) {
 
 constexpr int kBits[] = {128, 256, 512, 1024};
 
-/// The roots |d x e| of a fan over few radicands: |d x e| of corner i is factor[i] times the root of radicands[which[i]].
-struct SharedRoots {
-  std::vector<mpq_class> radicands, factors;
-  std::vector<std::size_t> which;
-};
-
-/// Empty if there are more than `most` radicands.
-std::optional<SharedRoots> share_roots(std::span<const ExactCorner> fan, std::size_t most) {
-  SharedRoots roots;
-  for (const ExactCorner& corner : fan) {
-    std::optional<mpq_class> factor;
-    std::size_t k = 0;
-    for (; k < roots.radicands.size() && !factor; ++k) factor = robust::rational_square_root(corner.cross_square / roots.radicands[k]);
-    if (!factor) {
-      if (roots.radicands.size() == most) return std::nullopt;
-      roots.radicands.push_back(corner.cross_square);
-      factor = 1;
-      ++k;
-    }
-    roots.factors.push_back(*factor);
-    roots.which.push_back(k - 1);
-  }
-  return roots;
-}
-
-/// Pre: the sum is less than a quarter turn off.
-MaybeSign sign_of_exact_product(std::span<const ExactCorner> fan, const SharedRoots& shared, int quarter_turns) {
-  std::vector<robust::Exact> roots;
-  for (const mpq_class& radicand : shared.radicands) roots.push_back(sqrt(robust::Exact(radicand)));
-  robust::Exact x(1.0), y(0.0);
-  for (std::size_t i = 0; i < fan.size(); ++i) {
-    const robust::Exact u(fan[i].dot), v = robust::Exact(shared.factors[i]) * roots[shared.which[i]];
-    const robust::Exact product_x = x * u - y * v;
-    y = x * v + y * u;
-    x = product_x;
-  }
-  turn_back(x, y, quarter_turns % 4);
-  return maybe_sign(y);
-}
-
 /// The whole number of quarter turns that is certainly less than one off, by as many bits as that takes (few).
 std::optional<int> certain_quarters(std::span<const ExactCorner> fan) {
   if (const auto quarters = product_of<Ball<robust::DoubleDouble>>(fan, 0).quarters()) return quarters;
@@ -151,14 +116,6 @@ std::optional<int> certain_quarters(std::span<const ExactCorner> fan) {
     if (const auto quarters = product_of<Ball<robust::Mpfr>>(fan, bits).quarters()) return quarters;
   }
   return std::nullopt;
-}
-
-MaybeSign exact_with_roots(std::span<const ExactCorner> fan, int quarter_turns, std::size_t most_roots) {
-  const auto shared = share_roots(fan, most_roots);
-  if (!shared) return std::nullopt;
-  const auto quarters = certain_quarters(fan);
-  if (!quarters) return std::nullopt;
-  return compare_turns(*quarters, quarter_turns, [&] { return sign_of_exact_product(fan, *shared, quarter_turns); });
 }
 
 }  // namespace
@@ -171,13 +128,11 @@ void AngleSumFilter::add(const Vector& d, const Vector& e, double input_error) n
   if (!(size > kSmallest && size < kLargest)) in_range_ = false;
   factors_ += 1;
   input_error_ += input_error;
-  const int quarters = quarter_of(x, y);
-  turn_back(x, y, quarters);
+  const int quarters = turn_by_numbers(x, y);
   const double product_x = x_ * x - y_ * y;
   y_ = x_ * y + y_ * x;
   x_ = product_x;
-  const int more = quarter_of(x_, y_);
-  turn_back(x_, y_, more);
+  const int more = turn_by_numbers(x_, y_);
   quarters_ += quarters + (more == 3 ? -1 : more);
   if (x_ > kLargest) {
     x_ *= 0x1p-465;
@@ -230,16 +185,19 @@ MaybeSign multiprecision_compare_angle_sum(std::span<const ExactCorner> fan, int
 }
 
 MaybeSign exact_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
-  return exact_with_roots(fan, quarter_turns, kMostAngleRoots);
+  const auto product = FormalAngleProduct::of(fan, kMostAngleRoots);
+  if (!product) return std::nullopt;
+  const auto quarters = certain_quarters(fan);
+  if (!quarters) return std::nullopt;
+  return compare_turns(*quarters, quarter_turns, [&] { return product->imaginary_sign(quarter_turns); });
 }
 
 AngleDecision compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
   if (const auto sign = double_double_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::double_double};
-  if (const auto sign = exact_with_roots(fan, quarter_turns, 1)) return {sign, Stage::algebra};
+  if (const auto sign = exact_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::algebra};
   for (const int bits : kBits) {
     if (const auto sign = multiprecision_compare_angle_sum(fan, quarter_turns, bits)) return {sign, Stage::mpfr};
   }
-  if (const auto sign = exact_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::algebra};
   return {std::nullopt, Stage::undecided};
 }
 

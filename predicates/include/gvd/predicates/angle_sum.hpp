@@ -52,15 +52,16 @@ ExactCorner exact_corner(const std::array<mpq_class, 3>& d, const std::array<mpq
 
 robust::MaybeSign double_double_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns);
 robust::MaybeSign multiprecision_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns, int bits);
-/// Decides if at most kMostAngleRoots of the roots |d x e| are independent as far as pairs tell (one on coplanar fans, two on folds).
+/// Decides if the roots |d x e| of the fan are all rational multiples of one (coplanar fans); proves equality if at most kMostAngleRoots of
+/// them are independent (two on folds). Otherwise empty. Cost: 2^roots rational operations a corner.
 robust::MaybeSign exact_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns);
-inline constexpr std::size_t kMostAngleRoots = 3;
+inline constexpr std::size_t kMostAngleRoots = 4;
 
 struct AngleDecision {
   robust::MaybeSign sign;  ///< empty: undecided
   robust::Stage stage;
 };
-/// The stages above after the filter, in turn. Proof by a single root comes before MPFR, because equality is common there.
+/// The stages above after the filter, in turn. The exact one comes before MPFR, because what double-double cannot tell is usually equal.
 AngleDecision compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns);
 
 }  // namespace gvd::predicates
