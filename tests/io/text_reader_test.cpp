@@ -7,6 +7,7 @@
 
 #include "gvd/kernel/mesh.hpp"
 #include "io/refusal.hpp"
+#include "io/sample_meshes.hpp"
 
 namespace gvd::io {
 namespace {
@@ -19,9 +20,9 @@ using test::with;
 using test::with_crlf;
 using Faces = std::vector<std::array<std::uint32_t, 3>>;
 
-const std::string kOff = "OFF\n4 2 5\n0 0 0\n1 0 0.5\n1 1 0\n0 1 -2.5e-1\n3 0 1 2\n3 0 2 3\n";
-const std::vector<Point> kPoints = {{0, 0, 0}, {1, 0, 0.5}, {1, 1, 0}, {0, 1, -0.25}};
-const Faces kFaces = {{0, 1, 2}, {0, 2, 3}};
+const std::string kOff = test::off_text();
+const std::vector<Point>& kPoints = test::kSquarePoints;
+const Faces& kFaces = test::kSquareFaces;
 
 void expect_square(const std::string& bytes, const std::string& name) {
   SCOPED_TRACE(bytes);

@@ -18,7 +18,7 @@
 /// All comparisons: negative, zero, positive if the sum is less than, equal to, more than the turns asked for.
 namespace gvd::predicates {
 
-/// The stage in plain doubles, with an a-priori error bound: docs/error-bounds.md#angle-sums.
+/// The stage in plain doubles, with an a-priori error bound, derived in angle_sum.cpp.
 class AngleSumFilter {
  public:
   using Vector = std::array<double, 3>;
@@ -55,6 +55,11 @@ robust::MaybeSign multiprecision_compare_angle_sum(std::span<const ExactCorner> 
 /// Decides if the roots |d x e| of the fan are all rational multiples of one (coplanar fans); proves equality if at most kMostAngleRoots of
 /// them are independent (two on folds). Otherwise empty. Cost: 2^roots rational operations a corner.
 robust::MaybeSign exact_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns);
+/// Enough for every equality. Write A_c for the sum of the angles whose root is rational times sqrt(c), c up to squares. If all angles add up to a multiple
+/// of pi/2, the product of the corners is real or imaginary, and so are its images when sqrt signs change; hence each A_c with c not 1 is
+/// a multiple of pi / 2^m, m the number of independent roots. Its tangent is rational times sqrt(c) or infinite, and the
+/// only such angles are multiples of pi/2 (multiples of pi/4 have c = 1, those of pi/8 and less no rational squared tangent).
+/// So at most four classes c other than 1 fit into 2 pi.
 inline constexpr std::size_t kMostAngleRoots = 4;
 
 struct AngleDecision {
