@@ -46,8 +46,6 @@ double squared_distance(const kernel::Point& a, const kernel::Point& b) {
 
 }  // namespace
 
-double next_uniform(std::uint64_t& state) { return unit(mix(state += 0x9e3779b97f4a7c15u)); }
-
 kernel::MeshArrays generated_terrain(std::uint32_t faces, std::uint64_t seed) {
   constexpr double kCell = 20;
   constexpr double kJitter = 0.48;  // below half a cell from end to end: no triangle turns over

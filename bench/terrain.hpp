@@ -12,7 +12,4 @@ namespace gvd::bench {
 /// real mountains.
 kernel::MeshArrays generated_terrain(std::uint32_t faces, std::uint64_t seed);
 
-/// Uniform in [0, 1), from a 64-bit state that it moves on (SplitMix64).
-double next_uniform(std::uint64_t& state);
-
 }  // namespace gvd::bench

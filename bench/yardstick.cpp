@@ -34,14 +34,16 @@ struct Yardstick::Impl {
   ShortestPath paths;
 };
 
-Yardstick::Yardstick(const kernel::Mesh& mesh, const std::vector<FacePoint>& sources) : impl_(std::make_unique<Impl>(mesh)) {
-  for (const FacePoint& p : sources) {
+Yardstick::Yardstick(const kernel::Mesh& mesh, const std::vector<kernel::Source>& sources) : impl_(std::make_unique<Impl>(mesh)) {
+  for (const kernel::Source& source : sources) {
     // CGAL counts corners from the source of the face's own half-edge.
-    const CgalMesh::Face_index face(p.face);
+    const kernel::FaceId f = source.at.face;
+    const CgalMesh::Face_index face(f);
     const auto first = impl_->mesh.source(impl_->mesh.halfedge(face)).idx();
     std::size_t shift = 0;
-    while (mesh.origin(3 * p.face + static_cast<kernel::HalfedgeId>(shift)) != first) ++shift;
-    impl_->paths.add_source_point(face, {{p.bary[shift], p.bary[(shift + 1) % 3], p.bary[(shift + 2) % 3]}});
+    while (mesh.origin(3 * f + static_cast<kernel::HalfedgeId>(shift)) != first) ++shift;
+    const auto bary = [&](std::size_t k) { return source.at.bary[(shift + k) % 3].get_d(); };
+    impl_->paths.add_source_point(face, {{bary(0), bary(1), bary(2)}});
   }
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gvd/kernel/mesh.hpp"
-#include "workload.hpp"
+#include "gvd/kernel/source.hpp"
 
 namespace gvd::bench {
 
@@ -12,7 +12,9 @@ namespace gvd::bench {
 /// constructions. This part of CGAL is under the GPL: it is compiled into the benchmark only.
 class Yardstick {
  public:
-  Yardstick(const kernel::Mesh& mesh, const std::vector<FacePoint>& sources);
+  /// Pre: no source is a vertex, none has a weight, and barycentric coordinates are doubles (those of `random_surface_sources`
+  /// are).
+  Yardstick(const kernel::Mesh& mesh, const std::vector<kernel::Source>& sources);
   ~Yardstick();
   /// Builds the sequence tree, which is CGAL's distance field. To be called once.
   void propagate();
