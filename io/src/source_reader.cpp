@@ -87,8 +87,7 @@ class SourceLines {
 
   SurfacePoint face_point() {
     constexpr std::string_view kForm = "f FACE B0 B1 B2";
-    const auto face = static_cast<kernel::FaceId>(
-        cursor_.integer(word(kForm), "face index", 0, std::int64_t{kernel::kNone} - 1));
+    const auto face = static_cast<kernel::FaceId>(cursor_.integer(word(kForm), "face index", 0, std::int64_t{kernel::kNone} - 1));
     std::array<mpq_class, 3> weights;
     for (mpq_class& weight : weights) weight = cursor_.real(word(kForm), "a weight of the corners");
     return place([&] { return kernel::point_in_face(mesh_, face, weights); });
@@ -132,7 +131,8 @@ std::uint64_t source_count(std::string_view spec, std::string_view number) {
 
 }  // namespace
 
-std::vector<kernel::Source> parse_sources(std::string_view text, const std::string& name, const kernel::Mesh& mesh, SourceReport& report) {
+std::vector<kernel::Source> parse_sources(std::string_view text, const std::string& name, const kernel::Mesh& mesh,
+                                          SourceReport& report) {
   report = {};
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // the byte order mark of some editors
   std::vector<kernel::Source> sources = SourceLines(text, name, mesh, report).read();
@@ -144,12 +144,14 @@ std::vector<kernel::Source> read_sources(const std::filesystem::path& file, cons
   return parse_sources(read_bytes(file, "a file of sources"), file.string(), mesh, report);
 }
 
-std::vector<kernel::Source> parse_source_spec(const std::string& spec, std::uint64_t seed, const kernel::Mesh& mesh, SourceReport& report) {
+std::vector<kernel::Source> parse_source_spec(const std::string& spec, std::uint64_t seed, const kernel::Mesh& mesh,
+                                              SourceReport& report) {
   report = {};
   const std::string_view text = spec;
   constexpr std::string_view kRandom = "random:", kVertices = "vertices:";
   if (text.starts_with(kRandom)) return kernel::random_surface_sources(mesh, source_count(text, text.substr(kRandom.size())), seed);
-  if (text.starts_with(kVertices)) return kernel::random_vertex_sources(mesh, source_count(text, text.substr(kVertices.size())), seed);
+  if (text.starts_with(kVertices))
+    return kernel::random_vertex_sources(mesh, source_count(text, text.substr(kVertices.size())), seed);
   return read_sources(spec, mesh, report);
 }
 

@@ -15,7 +15,8 @@
 namespace gvd::kernel {
 namespace {
 
-/// A point in the plane of a face: its barycentric coordinates 1 and 2, so corners 0, 1, 2 are (0,0), (1,0), (0,1), counter-clockwise.
+/// A point in the plane of a face: its barycentric coordinates 1 and 2, so corners 0, 1, 2 are (0,0), (1,0), (0,1),
+/// counter-clockwise.
 using PlanePoint = std::array<mpq_class, 2>;
 
 int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) {
@@ -214,8 +215,8 @@ void MeshRefiner::split_edge(HalfedgeId h, VertexId v) {
   record_children(twin_parent, {Mesh::face(t), g1});
 }
 
-/// Makes (a, b, c), h from a to b, into (a, v, c), with h from a to v, and the new face (v, b, c), which is returned. The twins of the
-/// two halves of the edge are left open.
+/// Makes (a, b, c), h from a to b, into (a, v, c), with h from a to v, and the new face (v, b, c), which is returned. The twins of
+/// the two halves of the edge are left open.
 FaceId MeshRefiner::split_side(HalfedgeId h, VertexId v) {
   const HalfedgeId n = Mesh::next(h), p = Mesh::prev(h);
   const VertexId b = mesh_.origin(n), c = mesh_.origin(p);
@@ -228,8 +229,8 @@ FaceId MeshRefiner::split_side(HalfedgeId h, VertexId v) {
   return f1;
 }
 
-/// The place of v, which lies on the edge of h, in the plane of the given face that h belongs to: at the same parameter as in the face
-/// on the other side.
+/// The place of v, which lies on the edge of h, in the plane of the given face that h belongs to: at the same parameter as in the
+/// face on the other side.
 void MeshRefiner::place_on_edge(HalfedgeId h, VertexId v) {
   SplitFace& here = splits_.at(leaf(Mesh::face(h)).split);
   const SplitFace& there = splits_.at(leaf(Mesh::face(mesh_.twin(h))).split);

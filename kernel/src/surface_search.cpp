@@ -23,10 +23,10 @@ ExactPoint minus(const ExactPoint& a, const ExactPoint& b) { return {a[0] - b[0]
 mpq_class dot(const ExactPoint& a, const ExactPoint& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// At most the squared distance of p from the box.
-/// With u = 2^-53: a difference has relative error u (none on underflow), so a square is at most (1 + u)^3 too large and the sum (1 + u)^5;
-/// underflow of the three products adds at most 3 (1 + u)^2 2^-1075. The factor 1 - 16 u makes up for the first, for its own rounding
-/// and for that of the subtraction; the subtrahend 2^-1070 makes up for the second. Where something overflowed, the true value is above
-/// max / (1 + u)^5.
+/// With u = 2^-53: a difference has relative error u (none on underflow), so a square is at most (1 + u)^3 too large and the sum (1
+/// + u)^5; underflow of the three products adds at most 3 (1 + u)^2 2^-1075. The factor 1 - 16 u makes up for the first, for its
+/// own rounding and for that of the subtraction; the subtrahend 2^-1070 makes up for the second. Where something overflowed, the
+/// true value is above max / (1 + u)^5.
 double squared_distance_below(const Point& low, const Point& high, const Point& p) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -39,8 +39,8 @@ double squared_distance_below(const Point& low, const Point& high, const Point& 
 /// A double that is at least q >= 0.
 double rounded_up(const mpq_class& q) { return std::nextafter(robust::RootSum(q).rounded(), kInfinity); }
 
-/// Barycentric coordinates of the point of triangle abc nearest to p: finds in which of the seven Voronoi regions of the triangle p lies
-/// (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5), here in rationals.
+/// Barycentric coordinates of the point of triangle abc nearest to p: finds in which of the seven Voronoi regions of the triangle p
+/// lies (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5), here in rationals.
 std::array<mpq_class, 3> nearest_in_triangle(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& p) {
   const ExactPoint ab = minus(b, a), ac = minus(c, a), ap = minus(p, a);
   const mpq_class bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac);
@@ -126,7 +126,8 @@ FaceHit hit_face(const Mesh& mesh, FaceId f, const PlanePoint& p) {
   return {FaceHit::Kind::point, at};
 }
 
-/// The same for two hits of one vertical line iff they are the same surface point: the line meets an edge that is not vertical once.
+/// The same for two hits of one vertical line iff they are the same surface point: the line meets an edge that is not vertical
+/// once.
 std::array<std::uint32_t, 3> identity(const Mesh& mesh, const SurfacePoint& at) {
   const Location where = locate(mesh, at);
   if (where.kind == Location::Kind::vertex) return {0, where.vertex, 0};
@@ -225,7 +226,9 @@ void SurfaceSearch::search(std::uint32_t node, const Point& p, Best& best) const
   const Node& here = nodes_[node];
   if (squared_distance_below(here.box.low, here.box.high, p) > best.above) return;
   if (here.right != kNone) {
-    const auto below = [&](std::uint32_t child) { return squared_distance_below(nodes_[child].box.low, nodes_[child].box.high, p); };
+    const auto below = [&](std::uint32_t child) {
+      return squared_distance_below(nodes_[child].box.low, nodes_[child].box.high, p);
+    };
     const bool left_first = below(node + 1) <= below(here.right);
     search(left_first ? node + 1 : here.right, p, best);
     search(left_first ? here.right : node + 1, p, best);

@@ -169,7 +169,8 @@ TEST_F(SourceSpec, RandomPointsAndVertices) {
 }
 
 TEST_F(SourceSpec, Refusals) {
-  for (const std::string bad : {"random:", "random:x", "random:-1", "random:1.5", "random: 3", "random:99999999999999999999", "vertices:3x"}) {
+  for (const std::string bad :
+       {"random:", "random:x", "random:-1", "random:1.5", "random: 3", "random:99999999999999999999", "vertices:3x"}) {
     EXPECT_EQ(refused(bad), "sources '" + bad + "': not a number of sources");
   }
   EXPECT_EQ(refused("random:0"), "the number of random sources is 0");

@@ -37,8 +37,8 @@ Mesh triangles(std::uint32_t count) {
 /// Published values: https://rosettacode.org/wiki/Pseudo-random_numbers/Splitmix64.
 TEST(RandomGenerator, Splitmix64ReferenceValues) {
   std::uint64_t state = 1234567;
-  for (const std::uint64_t expected : {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u,
-                                       16408922859458223821u}) {
+  for (const std::uint64_t expected :
+       {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u, 16408922859458223821u}) {
     EXPECT_EQ(splitmix64(state), expected);
   }
 }
@@ -46,8 +46,9 @@ TEST(RandomGenerator, Splitmix64ReferenceValues) {
 /// The reference values of the crate rand_xoshiro, made with the authors' C code.
 TEST(RandomGenerator, Xoshiro256ReferenceValues) {
   RandomGenerator random(std::array<std::uint64_t, 4>{1, 2, 3, 4});
-  for (const std::uint64_t expected : {std::uint64_t{11520}, std::uint64_t{0}, std::uint64_t{1509978240}, 1215971899390074240u, 1216172134540287360u,
-                                       607988272756665600u, 16172922978634559625u, 8476171486693032832u, 10595114339597558777u, 2904607092377533576u}) {
+  for (const std::uint64_t expected :
+       {std::uint64_t{11520}, std::uint64_t{0}, std::uint64_t{1509978240}, 1215971899390074240u, 1216172134540287360u,
+        607988272756665600u, 16172922978634559625u, 8476171486693032832u, 10595114339597558777u, 2904607092377533576u}) {
     EXPECT_EQ(random.next(), expected);
   }
 }
@@ -134,7 +135,8 @@ TEST(RandomSurfaceSources, AnyScale) {
     for (auto& p : arrays.points)
       for (double& c : p) c *= scale;
     const auto sources = random_surface_sources(Mesh(std::move(arrays)), 10, 5);
-    const auto unscaled = random_surface_sources(Mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-3, 0, 0}}, {{0, 1, 2}, {0, 2, 3}}}), 10, 5);
+    const auto unscaled =
+        random_surface_sources(Mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-3, 0, 0}}, {{0, 1, 2}, {0, 2, 3}}}), 10, 5);
     for (int i = 0; i < 10; ++i) {
       EXPECT_EQ(sources[i].at.face, unscaled[i].at.face);
       EXPECT_EQ(sources[i].at.bary, unscaled[i].at.bary);
@@ -145,9 +147,11 @@ TEST(RandomSurfaceSources, AnyScale) {
 TEST(RandomSurfaceSources, Refusals) {
   const Mesh mesh = triangles(1);
   EXPECT_EQ(refusal([&] { random_surface_sources(mesh, 0, 1); }), "the number of random sources is 0");
-  EXPECT_EQ(refusal([&] { random_surface_sources(mesh, 10'000'001, 1); }), "10000001 random sources are too many (at most 10000000)");
+  EXPECT_EQ(refusal([&] { random_surface_sources(mesh, 10'000'001, 1); }),
+            "10000001 random sources are too many (at most 10000000)");
   const Mesh thin({{{0, 0, 0}, {1, 0, 0}, {0, 0x1p-1074, 0}}, {{0, 1, 2}}});
-  EXPECT_EQ(refusal([&] { random_surface_sources(thin, 1, 1); }), "the faces are too thin for random sources: their areas underflow");
+  EXPECT_EQ(refusal([&] { random_surface_sources(thin, 1, 1); }),
+            "the faces are too thin for random sources: their areas underflow");
 }
 
 TEST(RandomVertexSources, DistinctAndNeverIsolated) {

@@ -224,9 +224,9 @@ TEST(Refine, PointsOnTheEdgesThatEarlierSourcesMade) {
   const Mesh mesh = triangle();
   // The second lies between the first and corner 0, the third between the first and the second, the fourth is the second again, the
   // fifth lies on the line from the first to a side's middle point, which is the sixth.
-  const std::vector<Source> sources{{inside(0, 1, 1, 1), 0}, {inside(0, 2, 1, 1), 0},  {inside(0, 5, 3, 3), 0},
-                                    {inside(0, 4, 2, 2), 0}, {inside(0, 1, 3, 3), 0},  {inside(0, 0, 1, 1), 0},
-                                    {inside(0, 1, 5, 5), 0}, {inside(0, 1, 0, 1), 0},  {inside(0, 1, 0, 3), 0}};
+  const std::vector<Source> sources{{inside(0, 1, 1, 1), 0}, {inside(0, 2, 1, 1), 0}, {inside(0, 5, 3, 3), 0},
+                                    {inside(0, 4, 2, 2), 0}, {inside(0, 1, 3, 3), 0}, {inside(0, 0, 1, 1), 0},
+                                    {inside(0, 1, 5, 5), 0}, {inside(0, 1, 0, 1), 0}, {inside(0, 1, 0, 3), 0}};
   RefinedSources where;
   const Mesh refined = refine(mesh, sources, where);
   EXPECT_EQ(where.duplicates, (std::vector<std::array<SourceId, 2>>{{3, 1}}));

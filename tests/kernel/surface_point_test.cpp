@@ -72,8 +72,8 @@ TEST(SurfacePoint, InAFaceTheCornersAreThoseOfTheInput) {
   for (FaceId f = 0; f < 3; ++f) {
     const ExactPoint found = exact_position(mesh, point_in_face(mesh, f, {mpq_class(2), mpq_class(3), mpq_class(5)}));
     for (int i = 0; i < 3; ++i) {
-      const mpq_class expected = (2 * mesh.exact_point(given[f][0])[i] + 3 * mesh.exact_point(given[f][1])[i] +
-                                  5 * mesh.exact_point(given[f][2])[i]) / 10;
+      const mpq_class expected =
+          (2 * mesh.exact_point(given[f][0])[i] + 3 * mesh.exact_point(given[f][1])[i] + 5 * mesh.exact_point(given[f][2])[i]) / 10;
       EXPECT_EQ(found[i], expected);
     }
     EXPECT_EQ(point_in_face(mesh, f, {0, 0, mpq_class(1, 7)}).vertex, given[f][2]);

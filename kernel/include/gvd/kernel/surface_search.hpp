@@ -20,8 +20,8 @@ struct NearestPoint {
   double distance = 0;         ///< its root, correctly rounded
 };
 
-/// Finds surface points from positions in space: exactly, whatever the input. Doubles only rule out faces that are certainly too far.
-/// Const functions may be called from several threads at once.
+/// Finds surface points from positions in space: exactly, whatever the input. Doubles only rule out faces that are certainly too
+/// far. Const functions may be called from several threads at once.
 class SurfaceSearch {
  public:
   /// Builds a tree of boxes over the faces. The mesh must outlive it. Pre: the mesh is not refined. Cost: O(n log n).
@@ -33,8 +33,8 @@ class SurfaceSearch {
   NearestPoint nearest(const Point& p) const;
 
   /// The only surface point on the vertical line (x, y). It may belong to several faces, on a common edge or vertex.
-  /// Throws InputError, with the faces, if the line misses the surface, meets it at several points, or runs along a vertical face or
-  /// edge; and if a coordinate is not finite. Cost: usually O(log n).
+  /// Throws InputError, with the faces, if the line misses the surface, meets it at several points, or runs along a vertical face
+  /// or edge; and if a coordinate is not finite. Cost: usually O(log n).
   SurfacePoint drop(double x, double y) const;
 
  private:
