@@ -80,7 +80,7 @@ mpq_class area(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// Whether p lies on the closed segment ab, given that they are collinear.
+/// Whether p lies on the closed segment ab (which may be a point), given that they are collinear.
 bool between(const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) {
   return (a[0] - p[0]) * (b[0] - p[0]) + (a[1] - p[1]) * (b[1] - p[1]) <= 0;
 }
@@ -92,23 +92,21 @@ struct FaceHit {
 };
 
 /// A vertical face is met in a segment, or at a corner at most: where no other corner and no inner point of its projection is.
+/// Pre: p lies in the box of the corners, which are collinear; so it lies on their segment if it lies on their line.
 FaceHit hit_vertical_face(const std::array<PlanePoint, 3>& corner, const PlanePoint& p, SurfacePoint at) {
-  bool met = false;
   for (int k = 0; k < 3; ++k) {
-    const PlanePoint &a = corner[k], &b = corner[(k + 1) % 3];
-    met = met || (a == b ? a == p : area(a, b, p) == 0 && between(a, b, p));
+    if (area(corner[k], corner[(k + 1) % 3], p) != 0) return {};
   }
-  if (!met) return {};
   int single = -1;
   for (int k = 0; k < 3; ++k) {
-    const PlanePoint &others = corner[(k + 1) % 3], &last = corner[(k + 2) % 3];
-    if (corner[k] == p && others != p && last != p && !between(others, last, p)) single = k;
+    if (corner[k] == p && !between(corner[(k + 1) % 3], corner[(k + 2) % 3], p)) single = k;
   }
   if (single < 0) return {FaceHit::Kind::segment, at};
   at.bary[single] = 1;
   return {FaceHit::Kind::point, at};
 }
 
+/// Pre: p lies in the box of the face.
 FaceHit hit_face(const Mesh& mesh, FaceId f, const PlanePoint& p) {
   std::array<PlanePoint, 3> corner;
   for (HalfedgeId k = 0; k < 3; ++k) {
