@@ -16,8 +16,8 @@ std::optional<double> rounded(const MpfrInterval& x);
 inline bool is_even(double x) { return (std::bit_cast<std::uint64_t>(x) & 1) == 0; }
 
 /// The correctly rounded double of an exact number, given `enclosure(bits)` (an interval of relative width at most 2^-bits) and
-/// `sign_of_difference(q)`, the sign of the number minus a rational. At most one exact comparison is made, with the midpoint of two doubles
-/// that the enclosure does not tell apart; empty if that has no answer.
+/// `sign_of_difference(q)`, the sign of the number minus a rational. At most one exact comparison is made, with the midpoint of
+/// two doubles that the enclosure does not tell apart; empty if that has no answer.
 template <class Enclosure, class SignOfDifference>
 std::optional<double> correctly_rounded(const Enclosure& enclosure, const SignOfDifference& sign_of_difference) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity(), kLargest = std::numeric_limits<double>::max();

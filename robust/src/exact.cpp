@@ -79,12 +79,17 @@ ConjugateBits conjugate_bits_of(const Expression& e) {
   const auto [u1, l1] = e.left->conjugate_bits();
   const auto [u2, l2] = e.right ? e.right->conjugate_bits() : ConjugateBits{};
   switch (e.operation) {
-    case Operation::negate: return {u1, l1};
+    case Operation::negate:
+      return {u1, l1};
     case Operation::add:
-    case Operation::subtract: return {capped(std::max(u1 + l2, l1 + u2) + 1), capped(l1 + l2)};
-    case Operation::multiply: return {capped(u1 + u2), capped(l1 + l2)};
-    case Operation::divide: return {capped(u1 + l2), capped(l1 + u2)};
-    case Operation::root: break;
+    case Operation::subtract:
+      return {capped(std::max(u1 + l2, l1 + u2) + 1), capped(l1 + l2)};
+    case Operation::multiply:
+      return {capped(u1 + u2), capped(l1 + l2)};
+    case Operation::divide:
+      return {capped(u1 + l2), capped(l1 + u2)};
+    case Operation::root:
+      break;
   }
   const long mean = (u1 + l1 + 1) / 2;  // sqrt(p / q) = sqrt(p q) / q = p / sqrt(p q)
   return u1 >= l1 ? ConjugateBits{mean, l1} : ConjugateBits{u1, mean};
@@ -126,7 +131,8 @@ class RootCounter {
   std::size_t other_roots_ = 0;
 };
 
-// The number is zero or at least 2^-result in magnitude: the norm of its numerator, an algebraic integer of degree at most D, is at least 1.
+// The number is zero or at least 2^-result in magnitude: the norm of its numerator, an algebraic integer of degree at most D, is
+// at least 1.
 long separation_bits(const Exact::Node& node) {
   RootCounter roots;
   roots.visit(NodePtr(NodePtr(), &node));  // does not own
@@ -151,12 +157,18 @@ class Evaluation {
     if (const Quadratic* leaf = node.quadratic()) return leaf->enclosure(bits_);
     const Expression& e = node.expression();
     switch (e.operation) {
-      case Operation::negate: return -of(*e.left);
-      case Operation::root: return sqrt(of(*e.left));
-      case Operation::add: return of(*e.left) + of(*e.right);
-      case Operation::subtract: return of(*e.left) - of(*e.right);
-      case Operation::multiply: return of(*e.left) * of(*e.right);
-      case Operation::divide: break;
+      case Operation::negate:
+        return -of(*e.left);
+      case Operation::root:
+        return sqrt(of(*e.left));
+      case Operation::add:
+        return of(*e.left) + of(*e.right);
+      case Operation::subtract:
+        return of(*e.left) - of(*e.right);
+      case Operation::multiply:
+        return of(*e.left) * of(*e.right);
+      case Operation::divide:
+        break;
     }
     return of(*e.left) / of(*e.right);
   }

@@ -32,7 +32,8 @@ bool has_no_extra_precision() {
 
 bool does_not_contract() {
   const double rounded = opaque(opaque(0x1.0000001p0) * opaque(0x1.0000001p0));
-  // The product is not a double; a fused operation would return its rounding error. (Read again: a product that is used twice is not fused.)
+  // The product is not a double; a fused operation would return its rounding error. (Read again: a product that is used twice is
+  // not fused.)
   const double x = opaque(0x1.0000001p0), y = opaque(0x1.0000001p0);
   return x * y - rounded == 0;
 }

@@ -111,7 +111,8 @@ TYPED_TEST(BallOf, RootsContainTheRootsOfTheNonNegativePart) {
         if (sgn(x) < 0) continue;
         has_non_negative = true;
         ASSERT_TRUE(sgn(high) >= 0 && high * high >= x) << i;
-        ASSERT_TRUE(sgn(low) <= 0 || low * low <= x) << i << ": " << std::hexfloat << Midpoint<TypeParam>::nearest(a.mid()) << " +- " << a.rad();
+        ASSERT_TRUE(sgn(low) <= 0 || low * low <= x)
+            << i << ": " << std::hexfloat << Midpoint<TypeParam>::nearest(a.mid()) << " +- " << a.rad();
       }
       ASSERT_TRUE(has_non_negative) << i << ": the root of a negative ball is undefined";
     }
@@ -141,12 +142,16 @@ TYPED_TEST(BallOf, EndsAreRoundedOutwardByAtMostAnUlp) {
     if (std::isfinite(a.lower())) {
       ASSERT_LE(mpq_class(a.lower()), low) << i;
       const double inner = std::nextafter(std::nextafter(a.lower(), kInfinity), kInfinity);
-      if (std::isfinite(inner)) { ASSERT_GE(mpq_class(inner), low) << i; }
+      if (std::isfinite(inner)) {
+        ASSERT_GE(mpq_class(inner), low) << i;
+      }
     }
     if (std::isfinite(a.upper())) {
       ASSERT_GE(mpq_class(a.upper()), high) << i;
       const double inner = std::nextafter(std::nextafter(a.upper(), -kInfinity), -kInfinity);
-      if (std::isfinite(inner)) { ASSERT_LE(mpq_class(inner), high) << i; }
+      if (std::isfinite(inner)) {
+        ASSERT_LE(mpq_class(inner), high) << i;
+      }
     }
     const Ball<double> narrow = narrowed(a);
     ASSERT_TRUE(contains(narrow, low) && contains(narrow, high)) << i;
@@ -160,7 +165,9 @@ TYPED_TEST(BallOf, SignsAreThoseOfEveryMember) {
     const MaybeSign sign = maybe_sign(a);
     bool all_alike = true;
     for (const auto& x : this->members(a)) {
-      if (sign) { ASSERT_EQ(static_cast<int>(*sign), sgn(x)) << i; }
+      if (sign) {
+        ASSERT_EQ(static_cast<int>(*sign), sgn(x)) << i;
+      }
       all_alike = all_alike && sgn(x) == sgn(this->members(a)[0]);
     }
     decided += sign.has_value();
@@ -181,22 +188,37 @@ TYPED_TEST(BallOf, StructuralZerosStayExact) {
     EXPECT_TRUE(is_exact_zero(sqrt(zero)));
     EXPECT_TRUE(is_exact_zero(zero.scaled(-1000)));
     const bool certainly_not_zero = a.rad() < 0.5 * Midpoint<TypeParam>::least_magnitude(a.mid());
-    if (certainly_not_zero) { EXPECT_TRUE(is_exact_zero(zero / a)); }
+    if (certainly_not_zero) {
+      EXPECT_TRUE(is_exact_zero(zero / a));
+    }
     const B exact(a.mid(), 0);
     EXPECT_EQ((exact + zero).rad(), 0);
     EXPECT_EQ((zero + exact).rad(), 0);
     EXPECT_EQ((exact - zero).rad(), 0);
     EXPECT_TRUE(is_exact_zero(exact - exact));
-    if (!Midpoint<TypeParam>::is_zero(a.mid())) { EXPECT_TRUE(is_exact_zero(zero / exact)); }
+    if (!Midpoint<TypeParam>::is_zero(a.mid())) {
+      EXPECT_TRUE(is_exact_zero(zero / exact));
+    }
   }
 }
 
 TYPED_TEST(BallOf, NothingIsDecidedFromTheUndefined) {
   using B = Ball<TypeParam>;
   const B straddling(TypeParam(1.0), 2.0), zero = 0.0, one = 1.0;
-  const std::vector<B> undefined = {one / straddling, one / zero, zero / zero, zero / straddling, sqrt(B(-1.0)), sqrt(B(TypeParam(-4.0), 1)),
-                                    B(kInfinity),     B(kNaN),    B(TypeParam(1.0), kNaN), B(TypeParam(1.0), kInfinity), one / B(kInfinity),
-                                    B(1.0) * kInfinity, zero * kInfinity, B(0x1p1000).scaled(1000)};
+  const std::vector<B> undefined = {one / straddling,
+                                    one / zero,
+                                    zero / zero,
+                                    zero / straddling,
+                                    sqrt(B(-1.0)),
+                                    sqrt(B(TypeParam(-4.0), 1)),
+                                    B(kInfinity),
+                                    B(kNaN),
+                                    B(TypeParam(1.0), kNaN),
+                                    B(TypeParam(1.0), kInfinity),
+                                    one / B(kInfinity),
+                                    B(1.0) * kInfinity,
+                                    zero * kInfinity,
+                                    B(0x1p1000).scaled(1000)};
   for (const B& x : undefined) {
     for (const B& y : {x, x + one, one - x, x * zero, zero * x, x * x, x * 2.0, x * 0.0, one / x, x / one, sqrt(x), abs(x), -x,
                        square(x), x - x, x.scaled(-30), zero / x, sqrt(square(x)), one / (one / x)}) {
@@ -226,8 +248,7 @@ TYPED_TEST(BallOf, RadiiAreNotMuchLargerThanNeeded) {
   for (int i = 0; i < this->kRounds / 10; ++i) {
     const TypeParam x(this->random.between(-40, 40)), y(this->random.between(-40, 40));
     const B a(x, 0), b(y, 0);
-    for (const B& z : {a + b, a * b, a / b, sqrt(abs(a))})
-      EXPECT_LE(z.rad(), 2 * u * Midpoint<TypeParam>::magnitude(z.mid())) << i;
+    for (const B& z : {a + b, a * b, a / b, sqrt(abs(a))}) EXPECT_LE(z.rad(), 2 * u * Midpoint<TypeParam>::magnitude(z.mid())) << i;
     const double r = 0x1p-30 * Midpoint<TypeParam>::magnitude(x), s = 0x1p-25 * Midpoint<TypeParam>::magnitude(y);
     const B c(x, r), d(y, s);
     EXPECT_LE((c + d).rad(), 1.001 * (r + s));
@@ -246,10 +267,18 @@ TYPED_TEST(BallOf, ChainsContainTheTruth) {
     for (int step = 0; step < 20; ++step) {
       const double y = std::ldexp(std::round(this->random.between(0, 30)), -20);
       switch (this->random.below(5)) {
-        case 0: x = x + y, truth += mpq_class(y); break;
-        case 1: x = y - x, truth = mpq_class(y) - truth; break;
-        case 2: x = x * y, truth *= mpq_class(y); break;
-        case 3: x = x / y, truth /= mpq_class(y); break;
+        case 0:
+          x = x + y, truth += mpq_class(y);
+          break;
+        case 1:
+          x = y - x, truth = mpq_class(y) - truth;
+          break;
+        case 2:
+          x = x * y, truth *= mpq_class(y);
+          break;
+        case 3:
+          x = x / y, truth /= mpq_class(y);
+          break;
         default:
           if (sgn(truth) == 0 || !maybe_sign(x)) break;
           x = y / x, truth = mpq_class(y) / truth;
@@ -269,7 +298,9 @@ TYPED_TEST(BallOf, RationalsAreEnclosedAndExactWhereTheyFit) {
     const mpq_class q = mpq_class(numerator) / mpq_class(denominator);
     ASSERT_TRUE(contains(from<B>(q, 100), q)) << i;
     ASSERT_TRUE(contains(from<B>(mpq_class(numerator), 53), mpq_class(numerator))) << i;
-    if (!std::is_same_v<TypeParam, Mpfr>) { EXPECT_EQ(from<B>(mpq_class(numerator)).rad(), 0) << i; }
+    if (!std::is_same_v<TypeParam, Mpfr>) {
+      EXPECT_EQ(from<B>(mpq_class(numerator)).rad(), 0) << i;
+    }
   }
 }
 
@@ -322,7 +353,9 @@ TEST(Ball, MagnitudesOfDoubleDoublesAreBounds) {
     const mpq_class truth = abs(to_mpq(x));
     ASSERT_LE(mpq_class(Midpoint<DoubleDouble>::least_magnitude(x)), truth) << i;
     const double most = Midpoint<DoubleDouble>::magnitude(x);
-    if (std::isfinite(most)) { ASSERT_GE(mpq_class(most), truth) << i; }
+    if (std::isfinite(most)) {
+      ASSERT_GE(mpq_class(most), truth) << i;
+    }
   }
 }
 

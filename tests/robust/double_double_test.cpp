@@ -25,7 +25,8 @@ class Moderate {
   DoubleDouble operator()() {
     const double hi = random_.between(-60, 60);
     if (random_.chance(10)) return hi;
-    return two_sum(hi, std::ldexp(random_.between(-1, 0), std::ilogb(hi) - 53 - (random_.chance(60) ? 0 : static_cast<int>(random_.below(60)))));
+    return two_sum(hi, std::ldexp(random_.between(-1, 0),
+                                  std::ilogb(hi) - 53 - (random_.chance(60) ? 0 : static_cast<int>(random_.below(60)))));
   }
   RandomNumbers& random() { return random_; }
 
@@ -44,11 +45,15 @@ TEST(DoubleDouble, ErrorFreeTransformationsAreExact) {
     }
     const double large = std::fabs(a) < std::fabs(b) ? b : a, small = std::fabs(a) < std::fabs(b) ? a : b;
     const DoubleDouble fast = fast_two_sum(large, small);
-    if (std::isfinite(fast.hi)) { ASSERT_EQ(to_mpq(fast), mpq_class(a) + mpq_class(b)) << i; }
+    if (std::isfinite(fast.hi)) {
+      ASSERT_EQ(to_mpq(fast), mpq_class(a) + mpq_class(b)) << i;
+    }
     const DoubleDouble product = two_prod(a, b);
     if (!std::isfinite(product.hi)) continue;
     const mpq_class lost = abs(to_mpq(product) - mpq_class(a) * mpq_class(b));
-    if (std::fabs(product.hi) >= 0x1p-969) { ASSERT_EQ(lost, 0) << i; }
+    if (std::fabs(product.hi) >= 0x1p-969) {
+      ASSERT_EQ(lost, 0) << i;
+    }
     ASSERT_LE(lost, power_of_two(-1075)) << i;
   }
 }
@@ -133,11 +138,11 @@ TEST(DoubleDouble, LiteralsFollowFromTheirDerivations) {
   EXPECT_GT(4 * product_bound, mpq_class(kDoubleDoubleProductError)) << "far too wide";
 
   // Quotient, with |x.hi| = |y.hi| = 1 and so |q| <= 1 + u.
-  const mpq_class c_lo = u * grow;                                   // low part of y.hi q
+  const mpq_class c_lo = u * grow;  // low part of y.hi q
   const mpq_class f_argument = u * grow + c_lo, f_error = u * f_argument, f = f_argument * grow;
   const mpq_class r_hi = (1 + u + f + c_lo) * grow, r_lo = u * r_hi;
-  const mpq_class high = u + c_lo + f + r_lo, high_error = u * high;  // x.hi - r.hi
-  const mpq_class low = u + r_lo, low_error = u * low;                // x.lo - r.lo
+  const mpq_class high = u + c_lo + f + r_lo, high_error = u * high;                    // x.hi - r.hi
+  const mpq_class low = u + r_lo, low_error = u * low;                                  // x.lo - r.lo
   const mpq_class rest_argument = u + u + u * grow + f_error + high_error + low_error;  // near x - y q
   const mpq_class rest_error = f_error + high_error + low_error + u * rest_argument;
   const mpq_class rest = rest_argument * grow;
@@ -152,7 +157,8 @@ TEST(DoubleDouble, LiteralsFollowFromTheirDerivations) {
   const mpq_class with_low = residual * grow + u, with_low_error = u * with_low;
   const mpq_class correction = with_low * grow / (2 * shrink);
   const mpq_class from_start = u + u;  // |sqrt x - s|, sqrt(1 + u) < 1 + u
-  const mpq_class root_error = (residual_error + with_low_error) / (2 * shrink) + u * correction + from_start * from_start / (2 * shrink);
+  const mpq_class root_error =
+      (residual_error + with_low_error) / (2 * shrink) + u * correction + from_start * from_start / (2 * shrink);
   const mpq_class root_bound = root_error / (shrink - correction * grow - root_error) * grow;
   EXPECT_LE(root_bound, mpq_class(kDoubleDoubleRootError));
   EXPECT_GT(4 * root_bound, mpq_class(kDoubleDoubleRootError));

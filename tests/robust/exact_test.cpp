@@ -1,8 +1,7 @@
 #include "gvd/robust/exact.hpp"
 
-#include <gtest/gtest.h>
-
 #include <CGAL/CORE_Expr.h>
+#include <gtest/gtest.h>
 
 #include <functional>
 #include <thread>
@@ -30,7 +29,8 @@ TEST(Exact, KnownZeros) {
   EXPECT_EQ(maybe_sign(1 / (root(2) + root(3)) - (root(3) - root(2))), Sign::zero);
   EXPECT_EQ(maybe_sign(sqrt(3 + 2 * root(2)) - 1 - root(2)), Sign::zero) << "denests";
   EXPECT_EQ(maybe_sign(sqrt(2 + root(3)) - (root(6) + root(2)) / 2), Sign::zero) << "denests outside the field";
-  EXPECT_EQ(maybe_sign(sqrt(sqrt(Exact(16.0) * root(4)) * root(2)) - 2 * sqrt(root(2) * root(2) / 2) * sqrt(sqrt(Exact(4.0)))), Sign::zero);
+  EXPECT_EQ(maybe_sign(sqrt(sqrt(Exact(16.0) * root(4)) * root(2)) - 2 * sqrt(root(2) * root(2) / 2) * sqrt(sqrt(Exact(4.0)))),
+            Sign::zero);
   const Exact phi = (1 + root(5)) / 2;
   EXPECT_EQ(maybe_sign(square(phi) - phi - 1), Sign::zero);
   EXPECT_EQ(maybe_sign(abs(-phi) - phi), Sign::zero);
@@ -69,12 +69,18 @@ std::vector<NT> random_expressions(std::uint64_t seed, int count, const std::fun
   for (int i = 0; i < count; ++i) {
     const NT a = pool[random.below(pool.size())], b = pool[random.below(pool.size())];
     const std::uint64_t kind = random.below(6);
-    if (kind == 0) pool.push_back(a + b);
-    else if (kind == 1) pool.push_back(a - b);
-    else if (kind == 2) pool.push_back(a * b);
-    else if (kind == 3 && sign_of(b) != 0) pool.push_back(a / b);
-    else if (sign_of(a) >= 0) pool.push_back(sqrt(a));
-    else pool.push_back(-a);
+    if (kind == 0)
+      pool.push_back(a + b);
+    else if (kind == 1)
+      pool.push_back(a - b);
+    else if (kind == 2)
+      pool.push_back(a * b);
+    else if (kind == 3 && sign_of(b) != 0)
+      pool.push_back(a / b);
+    else if (sign_of(a) >= 0)
+      pool.push_back(sqrt(a));
+    else
+      pool.push_back(-a);
   }
   return pool;
 }

@@ -12,7 +12,9 @@ namespace gvd::robust::test {
 namespace {
 
 void expect_at_most(const mpq_class& lost, double bound) {
-  if (std::isfinite(bound)) { EXPECT_LE(lost, mpq_class(bound)); }
+  if (std::isfinite(bound)) {
+    EXPECT_LE(lost, mpq_class(bound));
+  }
 }
 
 TEST(Mpfr, ResultsHaveTheLargerPrecisionAndAreNearest) {

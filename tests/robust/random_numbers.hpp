@@ -23,10 +23,14 @@ class RandomNumbers {
   std::uint64_t significand() {
     const std::uint64_t all = (std::uint64_t{1} << 52) - 1;
     switch (below(4)) {
-      case 0: return (std::uint64_t{1} << below(52)) | (std::uint64_t{1} << below(52));
-      case 1: return all << below(53) & all;
-      case 2: return all >> below(53);
-      default: return bits_() & all;
+      case 0:
+        return (std::uint64_t{1} << below(52)) | (std::uint64_t{1} << below(52));
+      case 1:
+        return all << below(53) & all;
+      case 2:
+        return all >> below(53);
+      default:
+        return bits_() & all;
     }
   }
 
@@ -78,7 +82,8 @@ class RandomNumbers {
     if (chance(25)) return 0;
     if (chance(10)) return std::fabs(any());
     const double scale = mid == 0 ? 1 : std::fabs(mid);
-    return std::fmin(std::fabs(std::ldexp(scale, -static_cast<int>(below(120))) * between(-2, 2)), std::numeric_limits<double>::max());
+    return std::fmin(std::fabs(std::ldexp(scale, -static_cast<int>(below(120))) * between(-2, 2)),
+                     std::numeric_limits<double>::max());
   }
 
   template <class T>

@@ -1,8 +1,7 @@
 #include "gvd/robust/root_sum.hpp"
 
-#include <gtest/gtest.h>
-
 #include <CGAL/CORE_Expr.h>
+#include <gtest/gtest.h>
 
 #include <stdexcept>
 
@@ -127,7 +126,8 @@ TEST(RootSum, RoundsExactMidpointsToEven) {
   for (const double sign : {1.0, -1.0}) {
     EXPECT_EQ(((RootSum(1 + half_ulp) + speck) * mpq_class(sign)).rounded(), sign * (1 + 0x1p-52));
     EXPECT_EQ(((RootSum(1 + half_ulp) - speck) * mpq_class(sign)).rounded(), sign);
-    EXPECT_EQ(((RootSum(power_of_two(1024) - power_of_two(970)) - speck) * mpq_class(sign)).rounded(), sign * std::numeric_limits<double>::max());
+    EXPECT_EQ(((RootSum(power_of_two(1024) - power_of_two(970)) - speck) * mpq_class(sign)).rounded(),
+              sign * std::numeric_limits<double>::max());
     EXPECT_EQ((RootSum(power_of_two(-1075)) + speck).rounded(), 0x1p-1074);
   }
   EXPECT_EQ(speck.rounded(), 0.0);

@@ -33,7 +33,8 @@ TYPED_TEST(RoundingOf, RoundsOnlyIfBothEndsRoundAlike) {
   for (int i = 0; i < 20000; ++i) {
     Ball<TypeParam> x = random.template ball<TypeParam>();
     const double mid = Midpoint<TypeParam>::nearest(x.mid());
-    if (random.chance(60)) x = Ball<TypeParam>(x.mid(), std::fmin(std::ldexp(std::fabs(mid), -45 - static_cast<int>(random.below(80))), 0x1p900));
+    if (random.chance(60))
+      x = Ball<TypeParam>(x.mid(), std::fmin(std::ldexp(std::fabs(mid), -45 - static_cast<int>(random.below(80))), 0x1p900));
     const mpq_class low = to_mpq(x.mid()) - to_mpq(x.rad()), high = to_mpq(x.mid()) + to_mpq(x.rad());
     const std::optional<double> result = rounded(x);
     const bool alike = nearest(low) == nearest(high);
@@ -45,7 +46,8 @@ TYPED_TEST(RoundingOf, RoundsOnlyIfBothEndsRoundAlike) {
     } else {
       ++refused;
       // It may refuse only a ball whose ends come close to a midpoint (or the ball is wide).
-      const mpq_class slack = (abs(high) + abs(low)) * power_of_two(-100) + 2 * to_mpq(x.rad()) * power_of_two(-49) + power_of_two(-1073);
+      const mpq_class slack =
+          (abs(high) + abs(low)) * power_of_two(-100) + 2 * to_mpq(x.rad()) * power_of_two(-49) + power_of_two(-1073);
       ASSERT_TRUE(nearest(low - slack) != nearest(high + slack)) << i;
     }
   }

@@ -15,14 +15,15 @@ namespace gvd::robust {
 /// A real number known up to a radius: |truth - mid| <= rad. T is double, DoubleDouble or Mpfr; the radius is a double.
 ///
 /// Every operation encloses the exact result for all members of the operands, whatever underflows; derivations in
-/// docs/error-bounds.md#balls. What overflows, and what is undefined for all or some members (division by a ball that contains zero), has
-/// an infinite or not-a-number radius, which no later operation makes finite and no decision is taken from. The one exception is the
-/// root of a ball that reaches below zero: it encloses the roots of its non-negative part (the truth is known to be there: a squared
-/// length), and only the root of a certainly negative ball is undefined.
+/// docs/error-bounds.md#balls. What overflows, and what is undefined for all or some members (division by a ball that contains
+/// zero), has an infinite or not-a-number radius, which no later operation makes finite and no decision is taken from. The one
+/// exception is the root of a ball that reaches below zero: it encloses the roots of its non-negative part (the truth is known to
+/// be there: a squared length), and only the root of a certainly negative ball is undefined.
 ///
 /// Structural zeros survive: 0 * x, 0 / x and x + 0 with an exact 0 add no error; a sum of exact doubles that is a double is exact.
 /// Correct in round-to-nearest without contraction only (floating_point.hpp checks that).
-/// Results do not depend on anything but the operands. Cost for double: about 6 (sum) to 12 (product) simple operations, no branches.
+/// Results do not depend on anything but the operands. Cost for double: about 10 simple operations a sum or product, and at
+/// most one branch, which is predictable.
 template <class T>
 class Ball {
   using M = Midpoint<T>;
@@ -172,11 +173,11 @@ Ball<double> narrowed(const Ball<T>& a) {
   return {M::nearest(a.mid()), (a.rad() + M::rest(a.mid())) * kRadiusInflation};
 }
 
-/// The same real number in double-double or with `bits` bits.
+/// The same real number in double-double.
 Ball<DoubleDouble> to_double_double(const Ball<Mpfr>& a);
 
-/// A rational in the number type NT = Ball<double>, Ball<DoubleDouble>, Ball<Mpfr> (rounded to `bits` bits, which the others ignore) or
-/// Exact. Exactly representable values get radius zero.
+/// A rational in the number type NT = Ball<double>, Ball<DoubleDouble>, Ball<Mpfr> (rounded to `bits` bits, which the others
+/// ignore) or Exact. Exactly representable values get radius zero.
 template <class NT>
 NT from(const mpq_class& q, int bits = 0);
 template <>

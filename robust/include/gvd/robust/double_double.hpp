@@ -10,13 +10,14 @@
 
 namespace gvd::robust {
 
-static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53, "double must be IEEE 754 binary64");
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53,
+              "double must be IEEE 754 binary64");
 static_assert(FLT_EVAL_METHOD == 0, "doubles must be evaluated in double: compile with SSE2 (-mfpmath=sse), not with the x87 unit");
 
 /// An unevaluated sum hi + lo of two doubles with hi = the double nearest to hi + lo: about 106 bits.
 /// Algorithms: Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic",
-/// ACM TOMS 44(2), 2017, and Lefevre et al. 2023 for the root. The bounds that the code relies on are derived, underflow included, in
-/// docs/error-bounds.md#double-double. Not a number or infinite as soon as a part overflows.
+/// ACM TOMS 44(2), 2017, and Lefevre et al. 2023 for the root. The bounds that the code relies on are derived, underflow
+/// included, in docs/error-bounds.md#double-double. Not a number or infinite as soon as a part overflows.
 struct DoubleDouble {
   double hi = 0;
   double lo = 0;
@@ -31,10 +32,10 @@ struct DoubleDouble {
 };
 
 /// Relative error bounds (in the absence of underflow; docs/error-bounds.md#double-double).
-inline constexpr double kDoubleDoubleAddError = 0x1p-104;     ///< 4 u^2, u = 2^-53; also holds with underflow
-inline constexpr double kDoubleDoubleProductError = 0x1p-103;  ///< 8 u^2
+inline constexpr double kDoubleDoubleAddError = 0x1p-104;       ///< 4 u^2, u = 2^-53; also holds with underflow
+inline constexpr double kDoubleDoubleProductError = 0x1p-103;   ///< 8 u^2
 inline constexpr double kDoubleDoubleQuotientError = 0x1p-101;  ///< 32 u^2
-inline constexpr double kDoubleDoubleRootError = 0x1p-103;     ///< 8 u^2
+inline constexpr double kDoubleDoubleRootError = 0x1p-103;      ///< 8 u^2
 
 /// s + e = a + b exactly, s the nearest double. Any a, b; wrong only by overflow (then e is not a number).
 constexpr DoubleDouble two_sum(double a, double b) noexcept {

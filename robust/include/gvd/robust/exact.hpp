@@ -15,13 +15,14 @@ namespace gvd::robust {
 /// It has the interface that the generic formulas need of `Ball`, so that one template serves both.
 ///
 /// Dividing by zero and the root of a negative number give the *undefined* value, which every operation passes on and whose sign is
-/// empty. Elements of one quadratic field Q(sqrt d) stay in normal form (three rationals) and cost a few GMP operations. Everything else
-/// is an expression whose sign costs MPFR work that grows with the number of bits of a separation bound, which doubles with every
-/// further independent root: meant for short formulas over one square class.
-/// (and sums of roots of plain rationals are better served by RootSum). The separation bound is that of Burnikel, Funke, Mehlhorn, Schirra and
-/// Schmitt, "A separation bound for real algebraic expressions", ESA 2001; docs/error-bounds.md#separation-bound. Where it asks for
-/// more than kMostBits bits the sign may stay empty; such a number as divisor or radicand makes the result undefined.
-/// Values are immutable; distinct objects may be used by distinct threads, also copies of one another.
+/// empty. Elements of one quadratic field Q(sqrt d) stay in normal form (three rationals) and cost a few GMP operations.
+/// Everything else is an expression whose sign costs MPFR work that grows with the number of bits of a separation bound, which
+/// doubles with every further independent root: meant for short formulas over one square class.
+/// (and sums of roots of plain rationals are better served by RootSum). The separation bound is that of Burnikel, Funke,
+/// Mehlhorn, Schirra and Schmitt, "A separation bound for real algebraic expressions", ESA 2001;
+/// docs/error-bounds.md#separation-bound. Where it asks for more than kMostBits bits the sign may stay empty; such a number as
+/// divisor or radicand makes the result undefined. Values are immutable; distinct objects may be used by distinct threads, also
+/// copies of one another.
 class Exact {
  public:
   class Node;
@@ -58,7 +59,8 @@ class Exact {
   /// An enclosure of relative radius at most 2^-bits where that is not limited by the range of double (zero is exact). Infinite
   /// radius if undefined or out of reach.
   Ball<Mpfr> enclosure(int bits) const;
-  /// Rationals around the number, at most 2^-bits times its magnitude apart (equal for rationals). Empty if undefined or out of reach.
+  /// Rationals around the number, at most 2^-bits times its magnitude apart (equal for rationals). Empty if undefined or out of
+  /// reach.
   std::optional<std::pair<mpq_class, mpq_class>> bounds(int bits) const;
   /// The number itself if it was recognised to be rational (which is always so when no root occurs in it, but not only then).
   std::optional<mpq_class> rational() const;

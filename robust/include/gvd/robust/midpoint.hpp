@@ -26,9 +26,9 @@ inline double sum_rounded_up(double a, double b, double c) noexcept {
   return sum.lo + tail.lo > 0 ? std::nextafter(sum.hi, std::numeric_limits<double>::infinity()) : sum.hi;
 }
 
-/// Rounded arithmetic on the midpoints of balls. Every operation hands back, beside the rounded result, a bound of its error, except for what
-/// underflow in a product, quotient or scaling adds to it (kUnderflowOfBall, which the ball adds where it cannot be excluded).
-/// The bound is infinite or not a number when the result is not finite; zero says that the result is exact.
+/// Rounded arithmetic on the midpoints of balls. Every operation hands back, beside the rounded result, a bound of its error,
+/// except for what underflow in a product, quotient or scaling adds to it (kUnderflowOfBall, which the ball adds where it cannot
+/// be excluded). The bound is infinite or not a number when the result is not finite; zero says that the result is exact.
 /// docs/error-bounds.md#midpoints.
 template <class T>
 struct Midpoint;

@@ -5,9 +5,9 @@
 
 namespace gvd::robust {
 
-/// A binary floating-point number of its own precision (MPFR), rounded to nearest. The precision of a result is the larger of those of
-/// the operands. The exponent range is MPFR's largest, so nothing underflows or overflows in practice; what does is infinite or not
-/// a number and reported by the ternary value. No global state; distinct objects may be used by distinct threads.
+/// A binary floating-point number of its own precision (MPFR), rounded to nearest. The precision of a result is the larger of
+/// those of the operands. The exponent range is MPFR's largest, so nothing underflows or overflows in practice; what does is
+/// infinite or not a number and reported by the ternary value. No global state; distinct objects may be used by distinct threads.
 class Mpfr {
  public:
   static constexpr int kLeastBits = 53;

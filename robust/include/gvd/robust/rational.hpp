@@ -8,7 +8,8 @@
 
 namespace gvd::robust {
 
-// Rationals are in lowest terms here and everywhere (as GMP's arithmetic leaves them; call canonicalize() after setting parts by hand).
+// Rationals are in lowest terms here and everywhere (as GMP's arithmetic leaves them; call canonicalize() after setting parts by
+// hand).
 
 /// x as a rational, exactly. Throws std::domain_error if x is not finite.
 mpq_class exact_rational(double x);
@@ -25,10 +26,10 @@ bool is_square(const mpq_class& q);
 /// Whether a and b differ by the square of a non-zero rational, that is sqrt(a) / sqrt(b) is rational. Pre: neither is zero.
 bool same_square_class(const mpq_class& a, const mpq_class& b);
 
-/// Bit i is the Legendre symbol, modulo the i-th of 64 fixed primes p below 2^62, of q with all factors p taken out (1 for a non-residue).
-/// Taking the factors out makes it a homomorphism of the non-zero rationals modulo squares, with no exceptions:
-/// signature(a b) = signature(a) xor signature(b), signature(square) = 0. So different signatures prove different classes; equal ones
-/// say nothing until `same_square_class` confirms it. Pre: q is not zero. Cost: some 5 microseconds.
+/// Bit i is the Legendre symbol, modulo the i-th of 64 fixed primes p below 2^62, of q with all factors p taken out (1 for a
+/// non-residue). Taking the factors out makes it a homomorphism of the non-zero rationals modulo squares, with no exceptions:
+/// signature(a b) = signature(a) xor signature(b), signature(square) = 0. So different signatures prove different classes; equal
+/// ones say nothing until `same_square_class` confirms it. Pre: q is not zero. Cost: some 5 microseconds.
 std::uint64_t square_class_signature(const mpq_class& q);
 
 /// The primes of the signature.

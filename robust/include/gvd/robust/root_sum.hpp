@@ -13,8 +13,9 @@ namespace gvd::robust {
 /// An exact number c_0 + c_1 sqrt(r_1) + ... + c_n sqrt(r_n) with rational c_i and rational r_i >= 0.
 ///
 /// Kept in normal form: no c_i is zero (i > 0), no r_i is a square, and no two r_i differ by a square. Square roots of rationals of
-/// different square classes are linearly independent over the rationals, also of 1 (Besicovitch 1940). So the number is zero iff no term is
-/// left and c_0 = 0, which needs no numerics at all; otherwise its sign is found by MPFR with rising precision, which must end.
+/// different square classes are linearly independent over the rationals, also of 1 (Besicovitch 1940). So the number is zero iff
+/// no term is left and c_0 = 0, which needs no numerics at all; otherwise its sign is found by MPFR with rising precision, which
+/// must end.
 class RootSum {
  public:
   struct Term {
@@ -27,7 +28,8 @@ class RootSum {
   /// coefficient * sqrt(radicand). Throws std::domain_error if the radicand is negative.
   RootSum(const mpq_class& coefficient, const mpq_class& radicand) { add(coefficient, radicand); }
 
-  /// Adds coefficient * sqrt(radicand). Throws std::domain_error if the radicand is negative. Cost: linear in the number of classes.
+  /// Adds coefficient * sqrt(radicand). Throws std::domain_error if the radicand is negative. Cost: linear in the number of
+  /// classes.
   RootSum& add(const mpq_class& coefficient, const mpq_class& radicand);
   RootSum& operator+=(const RootSum& other);
   RootSum& operator-=(const RootSum& other);

@@ -7,9 +7,9 @@
 
 namespace gvd::robust {
 
-/// The double nearest to the truth (ties to even, subnormals and overflow to infinity as IEEE 754 has them, zero without a sign) if all
-/// members of the ball round to the same one; otherwise nothing. A ball that contains a midpoint of two doubles rounds only if it is
-/// that point alone. Cost: about ten operations.
+/// The double nearest to the truth (ties to even, subnormals and overflow to infinity as IEEE 754 has them, zero without a sign)
+/// if all members of the ball round to the same one; otherwise nothing. A ball that contains a midpoint of two doubles rounds
+/// only if it is that point alone. Cost: about ten operations.
 inline std::optional<double> rounded(const Ball<DoubleDouble>& x) {
   const double hi = x.mid().hi, lo = x.mid().lo;
   if (!std::isfinite(hi)) return std::nullopt;
@@ -26,7 +26,8 @@ inline std::optional<double> rounded(const Ball<double>& x) { return rounded(Bal
 
 std::optional<double> rounded(const Ball<Mpfr>& x);
 
-/// The midpoint of a finite double and the next one above, exactly; above the largest double, the least number that rounds to infinity.
+/// The midpoint of a finite double and the next one above, exactly; above the largest double, the least number that rounds to
+/// infinity.
 mpq_class rounding_midpoint_above(double x);
 
 }  // namespace gvd::robust
