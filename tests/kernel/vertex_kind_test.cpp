@@ -113,6 +113,11 @@ TEST(VertexKind, FoldedPlanarFans) {
   // Forth and back, and exactly 2 pi in all: three right angles on the way, one of them back.
   const MeshArrays folded = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
   EXPECT_EQ(kinds_of(folded)[0], VertexKind::flat);
+  // Forth to a hair below a half turn, and back: the filter cannot tell it from 2 pi, and the quick proof has to see the fold.
+  MeshArrays hair = folded;
+  hair.points[3] = {-1, 0x1p-51, 0};
+  hair.points[4] = {1, 1, 0};
+  EXPECT_EQ(kinds_of(hair)[0], VertexKind::convex);
 }
 
 TEST(VertexKind, ScalingTurningAndRenumberingChangeNothing) {
