@@ -20,7 +20,8 @@ constexpr bool is_integer(ScalarType type) noexcept { return type < ScalarType::
 /// The next scalar as a coordinate: to the nearest double (only 64-bit integers can be rounded); refuses infinity and NaN.
 double read_coordinate(FileCursor& cursor, ScalarType type, std::endian order);
 
-/// The next scalar, of an integer type, as an integer. Unsigned 64-bit values above 2^63 - 1 become the latter: never a valid count or index.
+/// The next scalar, of an integer type, as an integer. Unsigned 64-bit values above 2^63 - 1 become the latter: never a valid
+/// count or index.
 std::int64_t read_integer(FileCursor& cursor, ScalarType type, std::endian order, std::string_view what);
 
 }  // namespace gvd::io

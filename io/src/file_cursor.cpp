@@ -131,7 +131,8 @@ void FileCursor::expect_room(std::uint64_t count, std::size_t least_bytes, std::
 }
 
 std::uint32_t FileCursor::vertex_index(std::string_view text, std::uint32_t vertices) const {
-  const auto value = integer(text, "vertex index", std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
+  const auto value =
+      integer(text, "vertex index", std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
   if (value < 0 || value >= vertices) refuse(fmt::format("vertex {} does not exist (there are {} vertices)", value, vertices));
   return static_cast<std::uint32_t>(value);
 }
@@ -144,7 +145,8 @@ std::string_view FileCursor::take(std::size_t size, std::string_view what) {
 }
 
 void FileCursor::refuse(std::string_view what) const {
-  const auto lines = std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(last_word_, bytes_.size())), '\n');
+  const auto lines =
+      std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(last_word_, bytes_.size())), '\n');
   throw InputError(fmt::format("{}, line {}: {}", name_, lines + 1, what));
 }
 

@@ -10,8 +10,9 @@
 
 namespace gvd::io {
 
-/// A position in the bytes of one file, with what all readers need: words, lines, numbers, binary scalars, and refusals that say where.
-/// White space is ' ', '\t', '\r', '\v', '\f'; lines end with '\n'. From `comment` to the end of a line is white space too (0: no comments).
+/// A position in the bytes of one file, with what all readers need: words, lines, numbers, binary scalars, and refusals that say
+/// where. White space is ' ', '\t', '\r', '\v', '\f'; lines end with '\n'. From `comment` to the end of a line is white space too
+/// (0: no comments).
 class FileCursor {
  public:
   FileCursor(std::string_view bytes, std::string name, char comment = '\0')
@@ -37,7 +38,8 @@ class FileCursor {
   double real(std::string_view word, std::string_view what) const;
   /// An integer in [low, high]; refuses all else.
   std::int64_t integer(std::string_view word, std::string_view what, std::int64_t low, std::int64_t high) const;
-  /// How many of something a file declares: 0 .. 2^32 - 2, and not more than the rest of the file can hold if each one takes `least_bytes`.
+  /// How many of something a file declares: 0 .. 2^32 - 2, and not more than the rest of the file can hold if each one takes
+  /// `least_bytes`.
   std::uint32_t count(std::string_view word, std::string_view what, std::size_t least_bytes) const;
   /// Refuses if `count` items of `least_bytes` bytes each cannot be in the rest of the file.
   void expect_room(std::uint64_t count, std::size_t least_bytes, std::string_view what) const;

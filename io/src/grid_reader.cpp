@@ -9,15 +9,17 @@
 #include "file_cursor.hpp"
 #include "mesh_formats.hpp"
 
-/// ESRI ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize or dx and dy, optionally NODATA_value (default -9999), in any
-/// order and case, then the heights row by row from the north. Each height belongs to the centre of its cell: with xllcorner column c
-/// lies at xllcorner + (c + 1/2) dx, with xllcenter at xllcenter + c dx (each rounded once), and likewise for rows, from the south.
+/// ESRI ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize or dx and dy, optionally NODATA_value
+/// (default -9999), in any order and case, then the heights row by row from the north. Each height belongs to the centre of its
+/// cell: with xllcorner column c lies at xllcorner + (c + 1/2) dx, with xllcenter at xllcenter + c dx (each rounded once), and
+/// likewise for rows, from the south.
 ///
-/// Vertices: one for each height, in the order of the file, without those that belong to no triangle. Faces: squares in the order of the file
-/// (by their north-west corner), counter-clockwise seen from above. A square with four heights is cut by the diagonal whose ends differ
-/// less in height (differences rounded to doubles), on a draw by that from south-west to north-east; a square with three heights is one
-/// triangle. Where the faces at a vertex would form two fans that meet nowhere else near it, the vertex is doubled, so the surface is not
-/// connected there: the fan that comes first keeps the vertex, the other gets a copy; copies come after all other vertices.
+/// Vertices: one for each height, in the order of the file, without those that belong to no triangle. Faces: squares in the order
+/// of the file (by their north-west corner), counter-clockwise seen from above. A square with four heights is cut by the diagonal
+/// whose ends differ less in height (differences rounded to doubles), on a draw by that from south-west to north-east; a square
+/// with three heights is one triangle. Where the faces at a vertex would form two fans that meet nowhere else near it, the vertex
+/// is doubled, so the surface is not connected there: the fan that comes first keeps the vertex, the other gets a copy; copies
+/// come after all other vertices.
 namespace gvd::io {
 namespace {
 
@@ -108,7 +110,8 @@ class GridReader {
     Axis axis;
     const bool corner = values_.count(origin + "corner") != 0;
     if (corner && values_.count(origin + "center") != 0) in_.refuse(fmt::format("both {0}corner and {0}center", origin));
-    if (!corner && values_.count(origin + "center") == 0) in_.refuse(fmt::format("the header has neither {0}corner nor {0}center", origin));
+    if (!corner && values_.count(origin + "center") == 0)
+      in_.refuse(fmt::format("the header has neither {0}corner nor {0}center", origin));
     axis.first = value(origin + (corner ? "corner" : "center"));
     axis.offset = corner ? 0.5 : 0;
     const std::string step_key = values_.count(step) != 0 ? step : "cellsize";
@@ -172,7 +175,8 @@ class GridTriangulation {
   /// The four squares at v, in a circle, hang together over the heights north, east, south and west of v.
   std::uint32_t fan_vertex(std::uint32_t v, std::uint32_t row, std::uint32_t column) {
     const std::uint32_t r = v / header_.columns, c = v % header_.columns;
-    const std::array<std::array<std::uint32_t, 2>, 4> square = {{{r - 1, c - 1}, {r - 1, c}, {r, c}, {r, c - 1}}};  // nw, ne, se, sw
+    const std::array<std::array<std::uint32_t, 2>, 4> square = {
+        {{r - 1, c - 1}, {r - 1, c}, {r, c}, {r, c - 1}}};  // nw, ne, se, sw
     std::array<bool, 4> used{}, joined{};  // joined: square k with the next one
     for (std::size_t k = 0; k < 4; ++k) used[k] = is_used(square[k][0], square[k][1]);
     joined[0] = used[0] && used[1] && has(v - header_.columns);

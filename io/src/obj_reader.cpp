@@ -6,9 +6,9 @@
 #include "file_cursor.hpp"
 #include "mesh_formats.hpp"
 
-/// Wavefront OBJ: lines `v x y z` (what follows is ignored) and `f` with corners v, v/vt, v//vn or v/vt/vn; indices count from 1, or back from
-/// the last vertex if negative. All other lines are ignored; '#' begins a comment; '\' at the end of a line continues it.
-/// Vertex and face ids elsewhere in this library count from 0.
+/// Wavefront OBJ: lines `v x y z` (what follows is ignored) and `f` with corners v, v/vt, v//vn or v/vt/vn; indices count from 1,
+/// or back from the last vertex if negative. All other lines are ignored; '#' begins a comment; '\' at the end of a line continues
+/// it. Vertex and face ids elsewhere in this library count from 0.
 namespace gvd::io {
 namespace {
 
@@ -83,7 +83,8 @@ class ObjReader {
     const auto value = in_.integer(index, "vertex index", -std::int64_t{kernel::kNone}, std::int64_t{kernel::kNone} - 1);
     const auto known = static_cast<std::int64_t>(mesh_.points.size());
     if (value == 0 || value < -known) {
-      in_.refuse(fmt::format("face {}: vertex {} does not exist (indices begin with 1; {} vertices so far)", mesh_.faces.size(), value, known));
+      in_.refuse(fmt::format("face {}: vertex {} does not exist (indices begin with 1; {} vertices so far)", mesh_.faces.size(),
+                             value, known));
     }
     return static_cast<std::uint32_t>(value > 0 ? value - 1 : known + value);
   }
@@ -91,7 +92,8 @@ class ObjReader {
   /// Texture and normal indices are not used, but they have to be numbers.
   void check_tail(std::string_view text, std::string_view tail) const {
     const std::size_t slash = tail.find('/');
-    const std::string_view texture = tail.substr(0, slash), normal = slash == tail.npos ? std::string_view() : tail.substr(slash + 1);
+    const std::string_view texture = tail.substr(0, slash),
+                           normal = slash == tail.npos ? std::string_view() : tail.substr(slash + 1);
     const auto is_index = [](std::string_view word) {
       if (word.starts_with('-')) word.remove_prefix(1);
       return !word.empty() && word.find_first_not_of("0123456789") == word.npos;

@@ -3,9 +3,9 @@
 #include "file_cursor.hpp"
 #include "mesh_formats.hpp"
 
-/// OFF (Geomview), ascii: the optional keyword [ST][C][N]OFF, the numbers of vertices, faces and (optional, ignored) edges, one vertex a line, one
-/// face a line. '#' begins a comment. Texture coordinates, colours and normals behind the coordinates of STOFF, COFF, NOFF and
-/// behind the corners of faces are ignored. 4OFF, nOFF and binary files are refused.
+/// OFF (Geomview), ascii: the optional keyword [ST][C][N]OFF, the numbers of vertices, faces and (optional, ignored) edges, one
+/// vertex a line, one face a line. '#' begins a comment. Texture coordinates, colours and normals behind the coordinates of STOFF,
+/// COFF, NOFF and behind the corners of faces are ignored. 4OFF, nOFF and binary files are refused.
 namespace gvd::io {
 namespace {
 

@@ -9,8 +9,8 @@
 #include "file_cursor.hpp"
 #include "mesh_formats.hpp"
 
-/// PLY 1.0 (Turk 1994): ascii, binary_little_endian and binary_big_endian. Vertices need scalar properties x, y, z, faces a list named vertex_indices or
-/// vertex_index; other properties and elements are passed over.
+/// PLY 1.0 (Turk 1994): ascii, binary_little_endian and binary_big_endian. Vertices need scalar properties x, y, z, faces a list
+/// named vertex_indices or vertex_index; other properties and elements are passed over.
 namespace gvd::io {
 namespace {
 
@@ -167,7 +167,8 @@ class PlyReader {
       for (std::uint64_t i = 0; i < values; ++i) in_.word("a value");
       return;
     }
-    if (values > in_.remaining() / size_of(property.type)) refuse_here(fmt::format("the file ends inside a list '{}'", property.name));
+    if (values > in_.remaining() / size_of(property.type))
+      refuse_here(fmt::format("the file ends inside a list '{}'", property.name));
     in_.take(values * size_of(property.type), "a property");
   }
 
@@ -199,7 +200,9 @@ class PlyReader {
   }
 
   void read_faces(const Element& element) {
-    const auto is_corners = [](const Property& p) { return p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index"); };
+    const auto is_corners = [](const Property& p) {
+      return p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index");
+    };
     if (std::count_if(element.properties.begin(), element.properties.end(), is_corners) != 1) {
       in_.refuse("the element 'face' needs one list property vertex_indices (or vertex_index)");
     }
@@ -220,7 +223,8 @@ class PlyReader {
     if (corners != 3) refuse_here(fmt::format("face {} has {} corners; only triangles are read", f, corners));
     for (auto& v : mesh_.faces[f]) {
       const std::int64_t index = integer(property.type, "a vertex of a face");
-      if (index < 0 || index >= std::int64_t{kernel::kNone}) refuse_here(fmt::format("face {}: vertex {} does not exist", f, index));
+      if (index < 0 || index >= std::int64_t{kernel::kNone})
+        refuse_here(fmt::format("face {}: vertex {} does not exist", f, index));
       v = static_cast<std::uint32_t>(index);
     }
   }

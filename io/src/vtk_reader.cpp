@@ -72,7 +72,8 @@ class VtkReader {
       read_section(keyword, word);
     }
     const std::string_view kind = in_.word("the kind of data set");
-    if (lower_case(kind.substr(0, 20)) != "polydata") in_.refuse(fmt::format("data set {} is not read, only POLYDATA", quoted(kind)));
+    if (lower_case(kind.substr(0, 20)) != "polydata")
+      in_.refuse(fmt::format("data set {} is not read, only POLYDATA", quoted(kind)));
   }
 
   void read_section(const std::string& keyword, std::string_view word) {
@@ -121,7 +122,8 @@ class VtkReader {
     in_.expect_room(points, 3 * least_bytes(scalar), "number of points");
     mesh_.points.resize(points);
     for (auto& point : mesh_.points) {
-      for (double& x : point) x = binary_ ? read_coordinate(in_, scalar, kVtkOrder) : in_.real(in_.word("a coordinate"), "coordinate");
+      for (double& x : point)
+        x = binary_ ? read_coordinate(in_, scalar, kVtkOrder) : in_.real(in_.word("a coordinate"), "coordinate");
     }
   }
 
@@ -155,7 +157,8 @@ class VtkReader {
     mesh_.faces.reserve(size / 4);
     for (std::uint32_t cell = 0; cell < cells; ++cell) {
       check_corners(cell, cell_number(ScalarType::int32, "the number of corners of a polygon"));
-      if (4 * (std::uint64_t{cell} + 1) > size) refuse_here(fmt::format("polygon {} is not inside the {} numbers declared", cell, size));
+      if (4 * (std::uint64_t{cell} + 1) > size)
+        refuse_here(fmt::format("polygon {} is not inside the {} numbers declared", cell, size));
       auto& face = mesh_.faces.emplace_back();
       for (auto& v : face) v = corner(cell, ScalarType::int32);
     }

@@ -31,7 +31,8 @@ std::uint32_t count_components(const Mesh& mesh) {
   return components;
 }
 
-/// Each boundary vertex starts one boundary half-edge, so the boundary is a permutation of these vertices; its cycles are the loops.
+/// Each boundary vertex starts one boundary half-edge, so the boundary is a permutation of these vertices; its cycles are the
+/// loops.
 std::uint32_t count_boundary_loops(const Mesh& mesh) {
   std::vector<std::uint8_t> seen(mesh.vertex_count(), 0);
   std::uint32_t loops = 0;

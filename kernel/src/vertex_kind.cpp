@@ -35,7 +35,7 @@ double position_error(const Mesh& mesh, VertexId p, const std::array<double, 3>&
 AngleSumFilter filter(const Mesh& mesh, VertexId v) {
   AngleSumFilter sum;
   const Point& at = mesh.point(v);
-  VertexId known = kNone;  // the vertex whose difference and error are in d
+  VertexId known = kNone;  // whose difference and error are in d
   std::array<double, 3> d{}, e{};
   double d_error = 0;
   for_each_corner(mesh, v, [&](VertexId p, VertexId q) {
@@ -72,7 +72,8 @@ AngleDecision decide(const Mesh& mesh, VertexId v) {
   const int quarter_turns = mesh.is_boundary(v) ? 2 : 4;
   const AngleSumFilter sum = filter(mesh, v);
   if (const auto sign = sum.compare(quarter_turns)) return {sign, Stage::filter};
-  if (sum.nearest_quarter_turns() == quarter_turns && is_certainly_straight_coplanar_fan(mesh, v)) return {Sign::zero, Stage::algebra};
+  if (sum.nearest_quarter_turns() == quarter_turns && is_certainly_straight_coplanar_fan(mesh, v))
+    return {Sign::zero, Stage::algebra};
   return decide_exactly(mesh, v, quarter_turns);
 }
 

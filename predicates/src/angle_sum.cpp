@@ -19,8 +19,8 @@ using robust::Stage;
 /// Sizes within which products of four numbers neither overflow nor lose more by underflow than the bound has to spare.
 constexpr double kSmallest = 1e-140, kLargest = 1e140;
 
-/// Turns x + i y back by quarter turns until the real part is positive and at least as large as the imaginary one; returns how many. Without branches,
-/// which no processor could foresee.
+/// Turns x + i y back by quarter turns until the real part is positive and at least as large as the imaginary one; returns how
+/// many. Without branches, which no processor could foresee.
 int turn_by_numbers(double& x, double& y) noexcept {
   const bool right_or_down = x - y >= 0, right_or_up = x + y >= 0;
   const bool odd = right_or_down != right_or_up;
@@ -107,8 +107,8 @@ TurnedProduct<NT> product_of(std::span<const ExactCorner> fan, int bits) {
   return product;
 }
 
-/// Equality is possible with at most four independent roots only (see kMostAngleRoots), so with more of them doubling must end; the last
-/// entries are for angles that differ by less than any input of doubles is known to reach.
+/// Equality is possible with at most four independent roots only (see kMostAngleRoots), so with more of them doubling must end;
+/// the last entries are for angles that differ by less than any input of doubles is known to reach.
 constexpr int kBits[] = {128, 256, 512, 1024, 4096, 16384};
 
 /// The whole number of quarter turns that is certainly less than one off, by as many bits as that takes (few).
@@ -150,11 +150,12 @@ void AngleSumFilter::add(const Vector& d, const Vector& e, double input_error) n
 //   c = d x e:       each entry 4 u (|di ej| + |dj ei|), the vector 4 sqrt(2) u |d||e| < 5.7 u |d||e|
 //   y = |c|:         that, and 2.5 u |d||e| for three squares, two sums and the root: < 8.2 u |d||e|
 // and w = x + i y, of size |d||e|, is off by less than sqrt(5^2 + 8.2^2) u |w| < 9.7 u |w|. The complex product adds sqrt(5) u
-// (Brent, Percival and Zimmermann, Error bounds on complex floating-point multiplication, 2007): 12 u a corner. Errors of the points,
-// h = |error of d| / |d| + |error of e| / |e|, change dot and cross product each by h |d||e| (1 + h): 1.42 h |w|.
-// The total is required to be below 2^-10, so that terms of second order and the roundings of the bound itself are below 1% of it: 13 u and 1.6 h.
-// Underflow: sizes are kept in [1e-140, 1e140], where a lost 2^-1075 in a product, or its root 1e-161 in y, is far below 0.01 u of the size.
-// Turning by i is exact. By less than 2^-10 off, numbers that were brought to |arg| <= pi/4 truly have |arg| < pi/2, so quarters are counted right.
+// (Brent, Percival and Zimmermann, Error bounds on complex floating-point multiplication, 2007): 12 u a corner. Errors of the
+// points, h = |error of d| / |d| + |error of e| / |e|, change dot and cross product each by h |d||e| (1 + h): 1.42 h |w|.
+// The total is required to be below 2^-10, so that terms of second order and the roundings of the bound itself are below 1% of it:
+// 13 u and 1.6 h. Underflow: sizes are kept in [1e-140, 1e140], where a lost 2^-1075 in a product, or its root 1e-161 in y, is far
+// below 0.01 u of the size. Turning by i is exact. By less than 2^-10 off, numbers that were brought to |arg| <= pi/4 truly have
+// |arg| < pi/2, so quarters are counted right.
 double AngleSumFilter::error_bound() const noexcept { return 13 * 0x1p-53 * factors_ + 1.6 * input_error_; }
 
 std::optional<int> AngleSumFilter::nearest_quarter_turns() const noexcept {

@@ -9,8 +9,9 @@
 
 namespace gvd::predicates {
 
-/// The product of the corners of a fan in Q(sqrt c_1, ..., sqrt c_m), the c being independent modulo squares: every root |d x e| of the fan is a
-/// rational times a product of some of the sqrt c. A number is then zero exactly if its 2^m rational coefficients are.
+/// The product of the corners of a fan in Q(sqrt c_1, ..., sqrt c_m), the c being independent modulo squares: every root |d x e|
+/// of the fan is a rational times a product of some of the sqrt c. A number is then zero exactly if its 2^m rational coefficients
+/// are.
 class FormalAngleProduct {
  public:
   /// Empty if more than `most` roots are needed. Cost: 2^m rational operations a corner.

@@ -40,8 +40,8 @@ class Random {
 /// Which diagonal splits the squares of a grid.
 enum class Diagonal { rising, falling, alternating };
 
-/// (nx + 1) x (ny + 1) vertices at (i, j) * step with height z(i, j), 2 nx ny faces. Vertex j * (nx + 1) + i; the faces of square (i, j)
-/// are 2 (j nx + i) and the next one.
+/// (nx + 1) x (ny + 1) vertices at (i, j) * step with height z(i, j), 2 nx ny faces. Vertex j * (nx + 1) + i; the faces of square
+/// (i, j) are 2 (j nx + i) and the next one.
 inline MeshArrays grid(std::uint32_t nx, std::uint32_t ny, const std::function<double(std::uint32_t, std::uint32_t)>& z,
                        Diagonal diagonal = Diagonal::rising, double step = 1) {
   MeshArrays mesh;
@@ -99,8 +99,8 @@ inline MeshArrays plane_with_hole(std::uint32_t nx, std::uint32_t ny, std::uint3
   return without_isolated(mesh);
 }
 
-/// The surface of [0, size[0]] x [0, size[1]] x [0, size[2]], each side cut into parts[k] equal pieces along axis k. Corner (0, 0, 0) is
-/// vertex 0. Coordinates are exact if the size is representable divided by the parts.
+/// The surface of [0, size[0]] x [0, size[1]] x [0, size[2]], each side cut into parts[k] equal pieces along axis k. Corner (0, 0,
+/// 0) is vertex 0. Coordinates are exact if the size is representable divided by the parts.
 inline MeshArrays box(const std::array<double, 3>& size, const std::array<std::uint32_t, 3>& parts) {
   MeshArrays mesh;
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> ids;
@@ -156,8 +156,8 @@ inline MeshArrays cone(std::uint32_t n, double radius, double height) {
   });
 }
 
-/// A fan of 2 n faces (n >= 2) round the saddle vertex 0 at the origin: rim vertices alternately up and down by `height` > 0 on the unit circle
-/// (coordinates rounded).
+/// A fan of 2 n faces (n >= 2) round the saddle vertex 0 at the origin: rim vertices alternately up and down by `height` > 0 on
+/// the unit circle (coordinates rounded).
 inline MeshArrays saddle_fan(std::uint32_t n, double height) {
   return fan(2 * n, {0, 0, 0}, [&](std::uint32_t i) {
     const double angle = 3.141592653589793 * i / n;
@@ -165,7 +165,8 @@ inline MeshArrays saddle_fan(std::uint32_t n, double height) {
   });
 }
 
-/// The exact saddle of integers: eight faces round vertex 0, corners of the square [-1, 1]^2 up by `height`, side middles down by it.
+/// The exact saddle of integers: eight faces round vertex 0, corners of the square [-1, 1]^2 up by `height`, side middles down by
+/// it.
 inline MeshArrays integer_saddle(double height) {
   constexpr int kX[8] = {1, 1, 0, -1, -1, -1, 0, 1}, kY[8] = {0, 1, 1, 1, 0, -1, -1, -1};
   return fan(8, {0, 0, 0}, [&](std::uint32_t i) {
@@ -185,8 +186,8 @@ inline MeshArrays staircase(std::uint32_t steps, std::uint32_t ny, double tread 
   return mesh;
 }
 
-/// A gable roof over [0, 2 half] x [0, ny] with `parts` columns on each slope. The ridge is `height` high; (half / parts, height / parts) from a
-/// Pythagorean pair, such as (4, 3), makes it isometric to a flat grid with integer columns. Developable.
+/// A gable roof over [0, 2 half] x [0, ny] with `parts` columns on each slope. The ridge is `height` high; (half / parts, height /
+/// parts) from a Pythagorean pair, such as (4, 3), makes it isometric to a flat grid with integer columns. Developable.
 inline MeshArrays roof(std::uint32_t parts, std::uint32_t ny, double half, double height) {
   MeshArrays mesh = flat_grid(2 * parts, ny);
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
@@ -213,9 +214,9 @@ inline MeshArrays integer_terrain(std::uint32_t n, std::uint32_t levels, std::ui
   return mesh;
 }
 
-/// A terrain with hills of all sizes: midpoint displacement (diamond-square) on a grid of 2^level squares a side, step 1. Each halving of
-/// the step scales the displacement by `roughness` (0.5 .. 0.7 looks natural); `relief` is the first displacement. Vertices are jittered in x
-/// and y by up to 0.3, so that nothing is aligned.
+/// A terrain with hills of all sizes: midpoint displacement (diamond-square) on a grid of 2^level squares a side, step 1. Each
+/// halving of the step scales the displacement by `roughness` (0.5 .. 0.7 looks natural); `relief` is the first displacement.
+/// Vertices are jittered in x and y by up to 0.3, so that nothing is aligned.
 inline MeshArrays fractal_terrain(std::uint32_t level, double relief, double roughness, std::uint64_t seed) {
   Random random(seed);
   const std::uint32_t n = 1u << level;
