@@ -1,6 +1,7 @@
 #include "chains.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "gvd/kernel/error.hpp"
@@ -26,7 +27,7 @@ std::vector<SourceId> sources_of_links(const DiagramInput& in, const Subdivision
   return sources;
 }
 
-/// How a wave reaches a vertex that it attains: through the window whose apex the vertex is, or along an edge from its root.
+/// How a wave comes to the faces round a vertex: as the window whose apex the vertex is, or from a neighbour of the vertex.
 struct Arrival {
   WindowId window = kNone;
   VertexId root = kNone;
@@ -35,7 +36,7 @@ struct Arrival {
 
 class Tracer {
  public:
-  Tracer(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {}
+  Tracer(const DiagramInput& in, const Subdivision& s, bool certain) : in_(in), s_(s), certain_(certain) {}
 
   Chains run() {
     result_.role.assign(s_.places.size(), Role::none);
@@ -59,13 +60,18 @@ class Tracer {
     if (ends.size() > 2 || label_sets_around(p) > 2 || has_further_source(p)) return Role::vertex;
     if (place.boundary) return Role::boundary;
     if (place.open) return Role::open;
-    if (ends.size() != 2) throw InternalError("a GVD edge ends at " + describe(p) + ", where no other one ends");
+    if (ends.size() != 2) return contradiction(p, "a GVD edge ends where no other one does");
     const DirectedLink in{ends[0].link, !ends[0].at_to}, out{ends[1].link, ends[1].at_to};
     for (std::size_t side = 0; side < 2; ++side)
       if (label_beside(s_, in, side) != label_beside(s_, out, side))
-        throw InternalError("the label sets beside a GVD edge are exchanged at " + describe(p));
+        return contradiction(p, "the label sets beside a GVD edge are exchanged");
     if (!continues(p, in, out, 0) || !continues(p, in, out, 1)) return Role::break_point;
     return inside_input_face(in_, place) ? Role::erased : Role::crossing;
+  }
+
+  Role contradiction(std::uint32_t p, const char* what) const {
+    if (certain_) throw InternalError(std::string(what) + " at " + describe(p));
+    return Role::open;
   }
 
   std::size_t label_sets_around(std::uint32_t p) const {
@@ -88,24 +94,18 @@ class Tracer {
     const Skeleton &fa = s_.facets[a.facet], &fb = s_.facets[b.facet];
     if (a.facet == b.facet && a.site == b.site) return true;
     if (place.kind == Place::Kind::vertex) return continues_at_vertex(place.vertex, fa, a.site, fb, b.site);
-    if (a.facet == b.facet) return have_one_image(fa, a.site, b.site);
+    if (a.facet == b.facet) return false;
     const HalfedgeId h = place.halfedge, twin = in_.refined.twin(h);
     return EdgeJoiner::same_wave(in_, fa.face == Mesh::face(h) ? h : twin, fa, a.site, fb, b.site);
   }
 
-  /// Two windows of one root that pass a flat vertex on either side: the arc between them is a ray, though their weights are the same.
-  static bool have_one_image(const Skeleton& facet, std::uint32_t a, std::uint32_t b) {
-    if (facet.waves->sites[a].root != facet.waves->sites[b].root) return false;
-    for (const auto& arc : facet.tessellation->arcs)
-      if (arc.tangent && ((arc.left == a && arc.right == b) || (arc.left == b && arc.right == a))) return true;
-    return false;
-  }
-
-  /// At a flat vertex a wave stays the same if it gets there by one and the same geodesic.
+  /// Round a flat vertex a wave that comes in once is one image, though other windows carry it on the two sides.
   bool continues_at_vertex(VertexId v, const Skeleton& fa, std::uint32_t a, const Skeleton& fb, std::uint32_t b) const {
     if (!is_flat(fa, v) || !is_flat(fb, v)) return false;
-    const FacetSite &x = fa.waves->sites[a], &y = fb.waves->sites[b];
-    return x.root == y.root && arrival(x, v) == arrival(y, v);
+    return any_pair(fa, a, fb, b, [&](const FacetSite& x, const FacetSite& y) {
+      const auto by_x = arrival(x, v), by_y = arrival(y, v);
+      return by_x && by_y && *by_x == *by_y;
+    });
   }
 
   static bool is_flat(const Skeleton& facet, VertexId v) {
@@ -114,13 +114,17 @@ class Tracer {
     return false;
   }
 
-  Arrival arrival(const FacetSite& site, VertexId v) const {
+  /// By which way the wave of a site comes to the faces round v for the last time; nothing if its strip does not.
+  std::optional<Arrival> arrival(const FacetSite& site, VertexId v) const {
+    HalfedgeId first = kNone;
     for (WindowId w = site.window; w != kNone;) {
       const WindowOrigin origin = in_.window(w);
-      if (in_.refined.apex(origin.halfedge) == v) return {w, site.root};
+      if (in_.refined.apex(origin.halfedge) == v) return Arrival{w, site.root};
+      first = origin.halfedge;
       w = origin.parent;
     }
-    return {kNone, site.root};
+    if (first != kNone && in_.refined.origin(first) != v && in_.refined.target(first) != v) return std::nullopt;
+    return Arrival{kNone, site.root};
   }
 
   void walk(DirectedLink first, bool closed) {
@@ -148,6 +152,7 @@ class Tracer {
 
   const DiagramInput& in_;
   const Subdivision& s_;
+  bool certain_;
   Chains result_;
   std::vector<std::uint8_t> visited_;
 };
@@ -170,5 +175,5 @@ std::vector<SourceId> sources_at(const DiagramInput& in, const Subdivision& s, s
   return sources;
 }
 
-Chains trace(const DiagramInput& in, const Subdivision& s) { return Tracer(in, s).run(); }
+Chains trace(const DiagramInput& in, const Subdivision& s, bool all_decided) { return Tracer(in, s, all_decided).run(); }
 }  // namespace gvd::kernel::subdivision

@@ -51,7 +51,7 @@ bool inside_input_face(const DiagramInput& in, const Place& place);
 /// The nearest sources at a place where links meet, sorted.
 std::vector<SourceId> sources_at(const DiagramInput& in, const Subdivision& s, std::uint32_t place);
 
-/// Pre: the subdivision is complete but for what is marked open. Throws InternalError if a GVD edge ends nowhere.
-Chains trace(const DiagramInput& in, const Subdivision& s);
+/// Throws InternalError if a GVD edge ends nowhere, or changes its label sets; unless something is undecided: then its end is open.
+Chains trace(const DiagramInput& in, const Subdivision& s, bool all_decided);
 
 }  // namespace gvd::kernel::subdivision

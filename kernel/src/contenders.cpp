@@ -19,6 +19,7 @@ Contenders::Contenders(FacetWaves& waves, FacetLadder& ladder) : waves_(waves) {
   list_.reserve(waves.sites.size());
   for (std::uint32_t i = 0; i < waves.sites.size(); ++i) {
     const FacetSite& site = waves.sites[i];
+    representative_.push_back(i);
     Contender c;
     c.site = i;
     c.corner = site.corner;
@@ -31,7 +32,6 @@ Contenders::Contenders(FacetWaves& waves, FacetLadder& ladder) : waves_(waves) {
       c.cone_site = {i, i};
     }
     c.attains_corner = site.attains_corner;
-    c.path_to_corner = site.path_to_corner;
     list_.push_back(c);
   }
   merge_same_images(ladder);
@@ -82,11 +82,11 @@ void Contenders::merge_same_images(FacetLadder& ladder) {
       left.attains_cone[1] = right.attains_cone[1];
       left.cone_site[1] = right.cone_site[1];
       left.entry |= right.entry;
-      left.site = std::min(left.site, right.site);
-      for (std::size_t k = 0; k < 3; ++k) {
-        left.attains_corner[k] = left.attains_corner[k] || right.attains_corner[k];
-        if (left.path_to_corner[k] == FacetSite::kNoPath) left.path_to_corner[k] = right.path_to_corner[k];
-      }
+      const std::uint32_t lowest = std::min(left.site, right.site);
+      for (std::uint32_t& site : representative_)
+        if (site == left.site || site == right.site) site = lowest;
+      left.site = lowest;
+      for (std::size_t k = 0; k < 3; ++k) left.attains_corner[k] = left.attains_corner[k] || right.attains_corner[k];
       list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(j));
       i = static_cast<std::size_t>(-1);  // start again: the merged cone may touch another
       break;
@@ -112,21 +112,6 @@ void Contenders::find_tangencies(FacetLadder& ladder) {
       }
     }
   }
-  eclipsed_.assign(n * n, 0);
-  for (std::size_t p = 0; p < n; ++p)
-    for (std::size_t r = 0; r < n; ++r)
-      if (p != r && (tangent_[p * n + r] != kNotTangent || finds_eclipse(ladder, list_[p], list_[r]))) eclipsed_[p * n + r] = 1;
-}
-
-/// Asks for identity only where doubles cannot exclude it: the difference of the weights must be the distance of the images.
-bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
-  if (relay.corner != FacetSite::kNoCorner && wave.attains_corner[relay.corner]) return true;
-  if (!wave.has_cone) return false;
-  const auto &a = *ladder.filter().sites[wave.site], &b = *ladder.filter().sites[relay.site];
-  const auto gap = square(a.image.x - b.image.x) + square(a.image.y - b.image.y) - square(b.weight - a.weight);
-  if (maybe_sign(gap) || maybe_sign(b.weight - a.weight) == Sign::negative) return false;
-  return waves_.is_own_relay(wave.site, relay.site) || waves_.is_own_relay(wave.cone_site[0], relay.site) ||
-         waves_.is_own_relay(wave.cone_site[1], relay.site);
 }
 
 }  // namespace gvd::kernel

@@ -21,13 +21,7 @@ struct Contender {
   std::array<bool, 2> attains_cone{false, false};
   std::array<std::uint32_t, 2> cone_site{0, 0};
   std::array<bool, 3> attains_corner{false, false, false};
-  std::array<std::uint64_t, 3> path_to_corner{FacetSite::kNoPath, FacetSite::kNoPath, FacetSite::kNoPath};
 
-  /// Whether both are known to have one and the same distance at corner k.
-  bool ties_at_corner(const Contender& other, std::size_t k) const {
-    return (attains_corner[k] && other.attains_corner[k]) ||
-           (path_to_corner[k] != FacetSite::kNoPath && path_to_corner[k] == other.path_to_corner[k]);
-  }
   bool enters_over(std::size_t side) const { return (entry >> side & 1) != 0; }
   /// Whether the wave is known to attain D at vertex v of the mesh; v may be a corner of the facet or bound the cone.
   bool attains(const FacetWaves& waves, VertexId v) const {
@@ -57,22 +51,20 @@ class Contenders {
   /// is nearer), or kNotTangent.
   int tangent_end(std::size_t parent, std::size_t relay) const { return tangent_[parent * list_.size() + relay]; }
   bool tangent(std::size_t a, std::size_t b) const { return tangent_end(a, b) != kNotTangent || tangent_end(b, a) != kNotTangent; }
-  /// Whether `relay` is, by identity, nowhere nearer than `wave`, cones aside: the path to the relay goes through `wave`'s strip, so its weight is
-  /// that of `wave` plus the distance of the images, and their bisector is the ray beyond the relay. (Tangent pairs are of this kind.)
-  bool eclipses(std::size_t wave, std::size_t relay) const { return eclipsed_[wave * list_.size() + relay] != 0; }
   std::string name(std::size_t i) const;
+  /// Per site the one that stands for it: itself, or the lowest of the windows with its image.
+  const std::vector<std::uint32_t>& representatives() const { return representative_; }
 
  private:
   void merge_same_images(FacetLadder& ladder);
   bool same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   void find_tangencies(FacetLadder& ladder);
-  bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
 
   FacetWaves& waves_;
   std::vector<Contender> list_;
+  std::vector<std::uint32_t> representative_;
   std::vector<signed char> tangent_;
-  std::vector<std::uint8_t> eclipsed_;
 };
 
 }  // namespace gvd::kernel

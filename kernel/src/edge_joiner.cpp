@@ -36,6 +36,7 @@ NT parameter(const Shore& shore, std::uint32_t node, int bits) {
   return shore.against ? NT(1.0) - t : t;
 }
 
+/// A wave in units of the edge: foot and height of its image, weight.
 template <class NT>
 struct EdgeWave {
   NT along, height, weight;
@@ -45,9 +46,9 @@ template <class NT>
 EdgeWave<NT> edge_wave(const Shore& shore, std::uint32_t site, int bits) {
   const auto& s = site_in<NT>(*shore.facet.waves, site, bits);
   const auto& frame = frame_in<NT>(*shore.facet.waves, bits);
-  const auto z = seen_from_side(predicates::side_line(frame, shore.side), s.image);
-  const NT weight = s.weight * frame.length;
-  return {shore.against ? NT(1.0) - z.x : z.x, abs(z.y), weight};
+  const auto line = predicates::side_line(frame, shore.side);
+  const auto z = seen_from_side(line, s.image);
+  return {shore.against ? NT(1.0) - z.x : z.x, abs(z.y), s.weight / sqrt(line.square)};
 }
 
 /// Whether the facet and all its waves can be had as exact numbers.
@@ -61,25 +62,22 @@ bool has_exact(const Skeleton& facet) {
 bool nonzero(const MaybeSign& sign) { return sign.has_value() && *sign != Sign::zero; }
 
 /// Whether two waves certainly do not tie along an interval of the edge: they are neither images of equal weight that are equal or mirrored in
-/// the edge, nor both on the line of the edge.
+/// the edge, nor both on the line of the edge with a difference of weights that is their distance.
 template <class NT>
 bool certainly_no_tie(const Shore& a, std::uint32_t site_a, const Shore& b, std::uint32_t site_b, int bits) {
   const EdgeWave<NT> x = edge_wave<NT>(a, site_a, bits), y = edge_wave<NT>(b, site_b, bits);
-  const bool not_mirrored =
-      nonzero(maybe_sign(x.weight - y.weight)) || nonzero(maybe_sign(x.along - y.along)) || nonzero(maybe_sign(x.height - y.height));
-  return not_mirrored && (nonzero(maybe_sign(x.height)) || nonzero(maybe_sign(y.height)));
+  const NT weight = x.weight - y.weight, along = x.along - y.along;
+  const bool not_mirrored = nonzero(maybe_sign(weight)) || nonzero(maybe_sign(along)) || nonzero(maybe_sign(x.height - y.height));
+  const bool not_on_line =
+      nonzero(maybe_sign(x.height)) || nonzero(maybe_sign(y.height)) || nonzero(maybe_sign(square(weight) - square(along)));
+  return not_mirrored && not_on_line;
 }
-
-/// The sites between two pieces, both included, on the two sides of a stretch of the edge.
-struct Stretch {
-  std::span<const Piece> left, right;
-};
 
 /// Whether the two sides cannot differ along the stretch, however short: everywhere the label sets do differ, and no two waves tie.
 template <class NT>
-bool impossible(const Stretch& stretch, const Shore& left, const Shore& right, int bits) {
-  for (const Piece& a : stretch.left)
-    for (const Piece& b : stretch.right)
+bool impossible(std::span<const Piece> of_left, std::span<const Piece> of_right, const Shore& left, const Shore& right, int bits) {
+  for (const Piece& a : of_left)
+    for (const Piece& b : of_right)
       if (a.labels == b.labels || !certainly_no_tie<NT>(left, a.site, right, b.site, bits)) return false;
   return true;
 }
@@ -96,26 +94,30 @@ std::span<const Piece> pieces_before(const SideView& view, std::size_t to) {
   return {view.pieces.data() + first, view.pieces.data() + to + 1};
 }
 
+/// The pieces before, between and after the events [from, to).
+std::span<const Piece> pieces_from(const SideView& view, std::size_t from, std::size_t to) {
+  return {view.pieces.data() + from, view.pieces.data() + to + 1};
+}
+
 enum class Verdict : std::uint8_t { less, equal, greater };
 
 /// What one stage says about the order of two events.
 template <class NT>
 std::optional<Verdict> order_in(const Shore& left, std::uint32_t left_node, const Shore& right, std::uint32_t right_node,
-                                const Stretch& if_less, const Stretch& if_greater, int bits) {
+                                const std::array<std::span<const Piece>, 2>& if_less, const std::array<std::span<const Piece>, 2>& if_greater,
+                                int bits) {
   const MaybeSign sign = maybe_sign(parameter<NT>(left, left_node, bits) - parameter<NT>(right, right_node, bits));
   if (sign == Sign::negative) return Verdict::less;
   if (sign == Sign::positive) return Verdict::greater;
   if (sign == Sign::zero) return Verdict::equal;
-  if (impossible<NT>(if_less, left, right, bits) && impossible<NT>(if_greater, left, right, bits)) return Verdict::equal;
+  if (impossible<NT>(if_less[0], if_less[1], left, right, bits) && impossible<NT>(if_greater[0], if_greater[1], left, right, bits)) return Verdict::equal;
   return std::nullopt;
 }
 
 }  // namespace
 
-bool EdgeJoiner::same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton& left, std::uint32_t left_site, const Skeleton& right,
-                           std::uint32_t right_site) {
-  if (left.waves == nullptr || right.waves == nullptr) return false;
-  const FacetSite &a = left.waves->sites[left_site], &b = right.waves->sites[right_site];
+/// A window goes over half-edge h to its child, a corner's wave to the windows that start there.
+bool EdgeJoiner::goes_over(const DiagramInput& in, HalfedgeId h, const FacetSite& a, const FacetSite& b) {
   const HalfedgeId twin = in.refined.twin(h);
   const bool a_comes_over = a.window != kNone && a.side == h % 3;
   const bool b_comes_over = b.window != kNone && b.side == twin % 3;
@@ -124,6 +126,12 @@ bool EdgeJoiner::same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton&
   const WindowId parent = in.window(child.window).parent;
   if (other.window != kNone) return parent == other.window;
   return parent == kNone && child.root == other.root;
+}
+
+bool EdgeJoiner::same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton& left, std::uint32_t left_site, const Skeleton& right,
+                           std::uint32_t right_site) {
+  return any_pair(left, left_site, right, right_site,
+                  [&](const FacetSite& a, const FacetSite& b) { return goes_over(in, h, a, b); });
 }
 
 bool EdgeJoiner::identical(const View& view, const Event& a, const Event& b) const {
@@ -141,8 +149,8 @@ EdgeJoiner::Order EdgeJoiner::compare(const View& view, std::size_t left_event, 
     return Order::equal;
   }
   const Shore left{view.left, view.h % 3, false}, right{view.right, view.twin % 3, true};
-  const Stretch if_less{pieces_after(view.of_left, left_event), pieces_before(view.of_right, right_event)};
-  const Stretch if_greater{pieces_before(view.of_left, left_event), pieces_after(view.of_right, right_event)};
+  const std::array if_less{pieces_after(view.of_left, left_event), pieces_before(view.of_right, right_event)};
+  const std::array if_greater{pieces_before(view.of_left, left_event), pieces_after(view.of_right, right_event)};
   const auto verdict = [&]<class NT>(const NT&, Stage stage, int bits) {
     const auto answer = order_in<NT>(left, a.node, right, b.node, if_less, if_greater, bits);
     if (answer) predicates::count(decisions_, Predicate::edge_tie, stage);
@@ -157,15 +165,6 @@ EdgeJoiner::Order EdgeJoiner::compare(const View& view, std::size_t left_event, 
   return *answer == Verdict::less ? Order::less : *answer == Verdict::greater ? Order::greater : Order::equal;
 }
 
-/// A facet that was not tessellated shows the same label set as its neighbour all along their edge.
-void EdgeJoiner::check_uniform(const View& view) {
-  for (const Piece& l : view.of_left.pieces)
-    for (const Piece& r : view.of_right.pieces)
-      if (l.labels != r.labels)
-        throw InternalError("facets " + std::to_string(view.left.face) + " and " + std::to_string(view.right.face) +
-                            ": different label sets along their edge, but one of them is not tessellated");
-}
-
 Joint EdgeJoiner::join(HalfedgeId h, const Skeleton& left, const Skeleton& right) {
   const HalfedgeId twin = in_.refined.twin(h);
   const View view{h, twin, left, right, left.sides[h % 3], right.sides[twin % 3].reversed()};
@@ -175,7 +174,6 @@ Joint EdgeJoiner::join(HalfedgeId h, const Skeleton& left, const Skeleton& right
   for (std::size_t i = 0; i < view.of_right.events.size(); ++i)
     if (view.of_right.events[i].essential) r.push_back(i);
   Joint joint;
-  if (left.waves == nullptr || right.waves == nullptr) check_uniform(view);
   joint.decided = merge(view, l, r, joint.stations);
   if (joint.decided) joint.decided = insert_inner_events(view, joint);
   if (!joint.decided)
@@ -196,6 +194,17 @@ bool EdgeJoiner::merge(const View& view, std::span<const std::size_t> left, std:
     if (order != Order::less) station.node_right = view.of_right.events[right[j++]].node;
     out.push_back(station);
   }
+  return true;
+}
+
+/// Two facets that show different label sets along their edge have waves that tie along it.
+bool EdgeJoiner::contradict(const View& view, std::span<const Piece> of_left, std::span<const Piece> of_right) const {
+  const Shore left{view.left, view.h % 3, false}, right{view.right, view.twin % 3, true};
+  const bool tessellated = view.left.waves != nullptr && view.right.waves != nullptr;
+  if (tessellated && !impossible<FacetWaves::DD>(of_left, of_right, left, right, 0)) return false;
+  if (all_decided(decisions_))
+    throw InternalError("facets " + std::to_string(view.left.face) + " and " + std::to_string(view.right.face) +
+                        ": different label sets along their edge, where no two waves tie");
   return true;
 }
 
@@ -237,6 +246,7 @@ bool EdgeJoiner::insert_inner_events(const View& view, Joint& joint) {
     const Station* behind = gap == joint.stations.size() ? nullptr : &joint.stations[gap];
     const std::size_t i_end = essential_from(view.of_left, i), j_end = essential_from(view.of_right, j);
     if (view.of_left.pieces[i].labels != view.of_right.pieces[j].labels) {
+      if (contradict(view, pieces_from(view.of_left, i, i_end), pieces_from(view.of_right, j, j_end))) return false;
       const auto l = inner_events(view, true, i, i_end, before, behind);
       const auto r = inner_events(view, false, j, j_end, before, behind);
       if (!l || !r || !merge(view, *l, *r, all)) return false;

@@ -20,9 +20,9 @@ class Extraction {
 
   Diagram run() {
     s_ = subdivide(in_, decisions_);
-    chains_ = trace(in_, s_);
+    chains_ = trace(in_, s_, all_decided(decisions_));
     list_undecided_faces();
-    if (d_.undecided_faces.empty()) check_euler(in_, s_, chains_);
+    if (all_decided(decisions_)) check_euler(in_, s_, chains_);
     d_.label_sets = in_.label_sets;
     keep_one_place_of_closed_chains();
     make_points();
@@ -41,11 +41,12 @@ class Extraction {
   void list_undecided_faces() {
     for (const Skeleton& facet : s_.facets)
       if (facet.undecided) d_.undecided_faces.push_back(in_.refined.input_face(facet.face));
+    const auto is_undecided = [&](FaceId f) { return s_.facet_of[f] != kNone && s_.facets[s_.facet_of[f]].undecided; };
     for (const Place& place : s_.places) {
-      if (place.kind == Place::Kind::edge && place.open) {
-        d_.undecided_faces.push_back(in_.refined.input_face(Mesh::face(place.halfedge)));
-        d_.undecided_faces.push_back(in_.refined.input_face(Mesh::face(in_.refined.twin(place.halfedge))));
-      }
+      if (place.kind != Place::Kind::edge || !place.open) continue;
+      const FaceId a = Mesh::face(place.halfedge), b = Mesh::face(in_.refined.twin(place.halfedge));
+      if (is_undecided(a) || is_undecided(b)) continue;  // open because of that; else the edge itself is undecided
+      for (const FaceId f : {a, b}) d_.undecided_faces.push_back(in_.refined.input_face(f));
     }
     auto& faces = d_.undecided_faces;
     std::sort(faces.begin(), faces.end());

@@ -9,7 +9,7 @@ namespace {
 
 class Subdivider {
  public:
-  Subdivider(const DiagramInput& in, predicates::Decisions& decisions) : in_(in), mesh_(in.refined), joiner_(in, decisions) {}
+  Subdivider(const DiagramInput& in, predicates::Decisions& decisions) : in_(in), mesh_(in.refined), decisions_(decisions), joiner_(in, decisions) {}
 
   Subdivision run() {
     make_skeletons();
@@ -34,7 +34,16 @@ class Subdivider {
       else if (given->tessellation->undecided)
         s_.facets.push_back({.face = f, .undecided = true});
       else
-        s_.facets.push_back(make_skeleton(*given));
+        s_.facets.push_back(checked_skeleton(*given));
+    }
+  }
+
+  Skeleton checked_skeleton(const BoundaryFacet& facet) const {
+    try {
+      return make_skeleton(facet);
+    } catch (const InternalError&) {
+      if (all_decided(decisions_)) throw;
+      return {.face = facet.face, .undecided = true};  // it is built on something undecided
     }
   }
 
@@ -53,23 +62,23 @@ class Subdivider {
 
   /// Beside a face with one label set that is not tessellated, the other face shows the same set all along the edge.
   void check_uniform_faces() const {
+    if (!all_decided(decisions_)) return;
     for (HalfedgeId h = 0; h < mesh_.halfedge_count(); ++h) {
-      const HalfedgeId twin = mesh_.twin(h);
-      if (twin == kNone || s_.facet_of[Mesh::face(h)] != kNone) continue;
-      const std::uint32_t facet = s_.facet_of[Mesh::face(twin)];
-      const LabelSetId labels = in_.face_labels[Mesh::face(h)];
-      if (facet == kNone) {
-        if (in_.face_labels[Mesh::face(twin)] != labels) not_tessellated(h);
-      } else if (!s_.facets[facet].undecided) {
-        for (const Piece& piece : s_.facets[facet].sides[twin % 3].pieces)
-          if (piece.labels != labels) not_tessellated(h);
-      }
+      if (s_.facet_of[Mesh::face(h)] == kNone && !agrees_beyond(h))
+        throw InternalError("facet " + std::to_string(Mesh::face(h)) + " is not tessellated, but its label set differs from that beyond side " +
+                            std::to_string(h % 3));
     }
   }
 
-  [[noreturn]] static void not_tessellated(HalfedgeId h) {
-    throw InternalError("facet " + std::to_string(Mesh::face(h)) + " is not tessellated, but its label set differs from that beyond side " +
-                        std::to_string(h % 3));
+  /// Whether beyond half-edge h of an untessellated face there is its label set only, as far as that is known.
+  bool agrees_beyond(HalfedgeId h) const {
+    const HalfedgeId twin = mesh_.twin(h);
+    if (twin == kNone) return true;
+    const std::uint32_t facet = s_.facet_of[Mesh::face(twin)];
+    const LabelSetId labels = in_.face_labels[Mesh::face(h)];
+    if (facet == kNone) return in_.face_labels[Mesh::face(twin)] == labels;
+    const auto& pieces = s_.facets[facet].sides[twin % 3].pieces;
+    return std::all_of(pieces.begin(), pieces.end(), [&](const Piece& piece) { return piece.labels == labels; });
   }
 
   const Skeleton* decided_facet(HalfedgeId h) const {
@@ -89,7 +98,7 @@ class Subdivider {
         const HalfedgeId twin = mesh_.twin(h);
         const Skeleton* other = decided_facet(twin);
         if (other == nullptr)
-          take_own_events(f, k, twin != kNone && s_.facet_of[Mesh::face(twin)] != kNone);
+          take_own_events(f, k, twin != kNone && (s_.facet_of[Mesh::face(twin)] != kNone || !agrees_beyond(twin)));
         else if (h < twin)
           join_over(h, f, k, twin, *other);
       }
@@ -297,6 +306,7 @@ class Subdivider {
 
   const DiagramInput& in_;
   const Mesh& mesh_;
+  predicates::Decisions& decisions_;
   EdgeJoiner joiner_;
   Subdivision s_;
   std::vector<std::vector<Station>> stations_;  // per facet and side; node_left is the facet's own node

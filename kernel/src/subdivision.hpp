@@ -12,6 +12,9 @@
 /// The subdivision of the surface by label sets, as the extraction builds it: places, darts and links (docs/diagram.md).
 namespace gvd::kernel::subdivision {
 
+/// Whether nothing is undecided so far. If so, a contradiction is an error of ours; otherwise it is one more undecided place.
+inline bool all_decided(const predicates::Decisions& decisions) { return decisions.total(robust::Stage::undecided) == 0; }
+
 /// A point where something meets: a vertex of the refined mesh, a point inside one of its edges, or a point inside a facet.
 struct Place {
   enum class Kind : std::uint8_t { vertex, edge, inside };
@@ -78,6 +81,20 @@ struct Skeleton {
 Skeleton make_skeleton(const BoundaryFacet& facet);
 Skeleton make_uniform_skeleton(FaceId face, LabelSetId labels);
 
+/// Whether `same(a, b)` holds for any sites a and b that the two given ones stand for.
+template <class Same>
+bool any_pair(const Skeleton& left, std::uint32_t left_site, const Skeleton& right, std::uint32_t right_site, const Same& same) {
+  if (left.waves == nullptr || right.waves == nullptr) return false;
+  const auto& of_left = left.tessellation->representative;
+  const auto& of_right = right.tessellation->representative;
+  for (std::size_t i = 0; i < of_left.size(); ++i) {
+    if (of_left[i] != left_site) continue;
+    for (std::size_t j = 0; j < of_right.size(); ++j)
+      if (of_right[j] == right_site && same(left.waves->sites[i], right.waves->sites[j])) return true;
+  }
+  return false;
+}
+
 /// A point where the two sides of an edge are joined: nodes of either side, or of both.
 struct Station {
   std::uint32_t place = kNone;
@@ -101,11 +118,12 @@ class EdgeJoiner {
                         std::uint32_t right_site);
 
  private:
+  static bool goes_over(const DiagramInput& in, HalfedgeId h, const FacetSite& a, const FacetSite& b);
   struct View;
   enum class Order : std::uint8_t { less, equal, greater, unknown };
   Order compare(const View& view, std::size_t left_event, std::size_t right_event);
   bool identical(const View& view, const Event& a, const Event& b) const;
-  static void check_uniform(const View& view);
+  bool contradict(const View& view, std::span<const Piece> of_left, std::span<const Piece> of_right) const;
   bool merge(const View& view, std::span<const std::size_t> left, std::span<const std::size_t> right, std::vector<Station>& out);
   bool insert_inner_events(const View& view, Joint& joint);
   std::optional<std::vector<std::size_t>> inner_events(const View& view, bool of_left, std::size_t from, std::size_t to, const Station* before,

@@ -60,6 +60,7 @@ FacetTessellation tessellate(FacetWaves& waves, predicates::Decisions& decisions
     return result;
   }
   merge_coincident(result);
+  result.representative = contenders.representatives();
   return result;
 }
 

@@ -45,6 +45,8 @@ struct FacetTessellation {
     static constexpr std::uint32_t kNoNode = 0xffffffffu;
   };
 
+  /// Per site the one that stands for it (windows of one image are one region); itself as a rule.
+  std::vector<std::uint32_t> representative;
   std::vector<Node> nodes;
   std::vector<Arc> arcs;
   std::vector<Piece> outline;
