@@ -236,7 +236,7 @@ void Propagation::emit_shadow(VertexId v, const Candidate& arrival) {
   };
   // Counter-clockwise: the first face in which half a turn may be full.
   HalfTurn ccw(normalised(ccw_start)), cw(normalised(cw_start));
-  std::size_t first = n, last = n;
+  std::optional<std::size_t> first, last;
   for (std::size_t step = 0; step < n; ++step) {
     const std::size_t i = ccw_face + step;
     if (!closed && i >= n) break;
@@ -256,18 +256,18 @@ void Propagation::emit_shadow(VertexId v, const Candidate& arrival) {
     }
   }
   if (closed) {
-    if (first == n || last == n) {  // no shadow could be told apart: the whole fan is safe
+    if (!first || !last) {  // no shadow could be told apart: the whole fan is safe
       emit_all(v);
       return;
     }
-    for (std::size_t i = first % n;; i = (i + 1) % n) {
+    for (std::size_t i = *first % n;; i = (i + 1) % n) {
       emit(v, fan[i]);
-      if (i == last) break;
+      if (i == *last) break;
     }
   } else {
-    for (std::size_t i = first; i < n; ++i) emit(v, fan[i]);
-    if (last != n)
-      for (std::size_t i = 0; i <= last; ++i) emit(v, fan[i]);
+    for (std::size_t i = first.value_or(n); i < n; ++i) emit(v, fan[i]);
+    if (last)
+      for (std::size_t i = 0; i <= *last; ++i) emit(v, fan[i]);
   }
 }
 
