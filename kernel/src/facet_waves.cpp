@@ -57,7 +57,7 @@ FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKin
   }
   for (std::uint8_t k = 0; k < 3; ++k) {
     if (field_.corner_sees_face[3 * f + k] != 0) add_corner(k);
-    for (WindowId w = field_.first_window[3 * f + k]; w != kNone; w = field_.windows[w].next) add_window(w, k);
+    add_side(k);
   }
 }
 
@@ -80,38 +80,78 @@ void FieldWaves::add_corner(std::uint8_t k) {
   strips_.emplace_back();
 }
 
-bool FieldWaves::certainly_dominated(const Unfolding<double>& at, double weight, double weight_error, std::uint8_t side) const {
-  const Frames& frames = resolution_.frames();
-  const EdgeFrame<double>& frame = frames(3 * face + side);
-  const predicates::Landing l0 = predicates::land(at.image.mid, at.cone0.mid, std::max(at.image.radius, at.cone0.radius));
-  const predicates::Landing l1 = predicates::land(at.image.mid, at.cone1.mid, std::max(at.image.radius, at.cone1.radius));
-  const double begin = std::max(0.0, l0.at - l0.margin), end = std::min(1.0, l1.at + l1.margin);
-  if (begin > end) return true;
-  const double y2 = at.image.mid.y * at.image.mid.y;
-  const auto low = [&](double x) {
-    const double dx = x - at.image.mid.x;
-    const double d = weight + frame.length * std::sqrt(dx * dx + y2);
-    return d * (1 - 0x1p-48) - weight_error - at.image.radius * frame.length * (1 + 0x1p-40);
-  };
-  const auto up = [&](VertexId v) { return (field_.distance[v] + field_.error[v]) * (1 + 0x1p-48); };
-  return up(corner[side]) + end * frame.length * (1 + 0x1p-48) < low(end) ||
-         up(corner[(side + 1) % 3]) + (1 - begin) * frame.length * (1 + 0x1p-48) < low(begin);
+/// Sorts out the windows of one side as the propagation does, with all of them and the final distances at hand.
+void FieldWaves::add_side(std::uint8_t side) {
+  std::vector<Arrival> list;
+  for (WindowId w = field_.first_window[3 * face + side]; w != kNone; w = field_.windows[w].next) {
+    Arrival arrival;
+    if (arrive(w, side, arrival)) list.push_back(std::move(arrival));
+  }
+  std::sort(list.begin(), list.end(), [](const Arrival& a, const Arrival& b) {
+    return a.begin != b.begin ? a.begin < b.begin : a.window < b.window;
+  });
+  const double length = resolution_.frames()(3 * face + side).length;
+  std::vector<Arrival> kept;
+  for (Arrival& arrival : list) {
+    bool keep = true;
+    while (!kept.empty() && keep) {
+      const Trim t = trim(kept.back(), arrival, length);
+      if (t == Trim::drop_second) keep = false;
+      if (t != Trim::drop_first) break;
+      kept.pop_back();
+    }
+    if (keep) kept.push_back(std::move(arrival));
+  }
+  for (Arrival& arrival : kept) add_window(std::move(arrival), side);
 }
 
-void FieldWaves::add_window(WindowId window, std::uint8_t side) {
+/// False if the window is certainly nowhere shortest in the facet.
+bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrival& arrival) const {
   const Frames& frames = resolution_.frames();
+  if (field_.windows[window].dominated()) return false;
   for (WindowId w = window; w != kNone; w = field_.windows[w].parent)
-    if (field_.windows[w].dead()) return;
-  Strip strip = strip_of(frames.mesh(), field_, window);
-  const Unfolding<double> at = unfold_double(frames, strip);
+    if (field_.windows[w].dead()) return false;
   const VertexId root = field_.windows[window].root;
-  if (certainly_dominated(at, field_.distance[root], field_.error[root], side)) return;
+  const EdgeFrame<double>& frame = frames(3 * face + side);
+  const Ball<double> weight = narrowed(resolution_.distance(root));
+  arrival.window = window;
+  arrival.strip = strip_of(frames.mesh(), field_, window);
+  arrival.at = unfold_double(frames, arrival.strip);
+  const Disc<double>&image = arrival.at.image, &cone0 = arrival.at.cone0, &cone1 = arrival.at.cone1;
+  const predicates::Landing l0 = predicates::land(image.mid, cone0.mid, std::max(image.radius, cone0.radius));
+  const predicates::Landing l1 = predicates::land(image.mid, cone1.mid, std::max(image.radius, cone1.radius));
+  constexpr double kUp = 1 + 0x1p-20;  // covers the rounding to float
+  arrival.image = image.mid;
+  arrival.begin = std::max(0.0, l0.at - l0.margin);
+  arrival.end = std::min(1.0, l1.at + l1.margin);
+  arrival.begin_slack = static_cast<float>(2 * l0.margin * kUp);
+  arrival.end_slack = static_cast<float>(2 * l1.margin * kUp);
+  arrival.begin_trimmed = arrival.end_trimmed = false;
+  arrival.weight = weight.mid();
+  arrival.weight_error = static_cast<float>(weight.rad() * kUp + 0x1p-140);
+  arrival.image_error = static_cast<float>(image.radius * frame.length * kUp + 0x1p-140);
+  if (arrival.begin > arrival.end) return false;
+  const double y2 = image.mid.y * image.mid.y;
+  const auto low = [&](double x) {
+    const double dx = x - image.mid.x;
+    const double d = arrival.weight + frame.length * std::sqrt(dx * dx + y2);
+    return d * (1 - 0x1p-48) - arrival.weight_error - arrival.image_error;
+  };
+  const auto up = [&](VertexId v) { return resolution_.distance(v).upper() * (1 + 0x1p-48); };
+  return !(up(corner[side]) + arrival.end * frame.length * (1 + 0x1p-48) < low(arrival.end) ||
+           up(corner[(side + 1) % 3]) + (1 - arrival.begin) * frame.length * (1 + 0x1p-48) < low(arrival.begin));
+}
+
+void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
+  const Frames& frames = resolution_.frames();
+  const WindowId window = arrival.window;
+  const VertexId root = field_.windows[window].root;
   FacetSite site;
   site.window = window;
   site.side = side;
   site.root = root;
   site.labels = resolution_.labels(root);
-  note_cone(site, strip, window);
+  note_cone(site, arrival.strip, window);
   for (std::uint8_t c = 0; c < 2; ++c) {
     const std::uint8_t k = static_cast<std::uint8_t>((side + c) % 3);
     site.attains_corner[k] = site.cone[c] == corner[k] && site.attains_cone[c];
@@ -119,9 +159,33 @@ void FieldWaves::add_window(WindowId window, std::uint8_t side) {
   const std::uint8_t opposite = static_cast<std::uint8_t>((side + 2) % 3);
   site.attains_corner[opposite] = resolution_.attains(window, corner[opposite]);
   const double unit = predicates::unit<double>(0);
-  sites_.push_back(make_site<double>(site, at, narrowed(resolution_.distance(root)), frames(3 * face), unit));
+  sites_.push_back(make_site<double>(site, arrival.at, narrowed(resolution_.distance(root)), frames(3 * face), unit));
   sites.push_back(site);
-  strips_.push_back(std::move(strip));
+  strips_.push_back(std::move(arrival.strip));
+}
+
+/// The relay's strip must be the end of the parent's, and before that the parent's strip must turn about the relay since it arrived there.
+bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
+  const Mesh& mesh = resolution_.frames().mesh();
+  const VertexId v = sites[relay].root;
+  if (sites[parent].window == kNone) return false;
+  const auto& steps = strips_[parent].steps;
+  std::size_t left = steps.size();
+  WindowId w = sites[parent].window;
+  if (sites[relay].window != kNone) {
+    const auto& own = strips_[relay].steps;
+    if (own.size() >= left) return false;
+    for (std::size_t i = own.size(); i-- > 0; w = field_.windows[w].parent)
+      if (steps[--left].side != own[i].side) return false;
+    if (steps[--left].side != strips_[relay].opposite) return false;
+    w = field_.windows[w].parent;
+  }
+  for (;; w = field_.windows[w].parent) {
+    const HalfedgeId h = field_.windows[w].halfedge();
+    if (mesh.apex(h) == v) return resolution_.attains(w, v);
+    if (mesh.origin(h) != v && mesh.target(h) != v) return false;
+    if (left-- == 0) return resolution_.attains_along_edge(sites[parent].root, v);
+  }
 }
 
 /// Follows the strip once more for the names of the cone's vertices.

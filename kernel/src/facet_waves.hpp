@@ -7,6 +7,7 @@
 #include "gvd/kernel/facet.hpp"
 #include "gvd/kernel/resolution.hpp"
 #include "gvd/kernel/unfolding.hpp"
+#include "window_interval.hpp"
 
 namespace gvd::kernel {
 
@@ -24,14 +25,23 @@ class FieldWaves final : public FacetWaves {
   const predicates::FacetFrame<robust::Exact>* exact_frame() override;
   const predicates::Site<robust::Exact>* exact_site(std::size_t i) override;
 
+  bool is_own_relay(std::size_t parent, std::size_t relay) override;
+
   /// The label set that all sites share; kNone if there are several.
   LabelSetId only_label() const noexcept;
 
  private:
-  void add_window(WindowId window, std::uint8_t side);
+  /// A window that may be nearest somewhere in the facet, while they are sorted out.
+  struct Arrival : WindowInterval {
+    WindowId window;
+    predicates::Strip strip;
+    predicates::Unfolding<double> at;
+  };
+  void add_side(std::uint8_t side);
+  bool arrive(WindowId window, std::uint8_t side, Arrival& arrival) const;
+  void add_window(Arrival&& arrival, std::uint8_t side);
   void add_corner(std::uint8_t k);
   void note_cone(FacetSite& site, const predicates::Strip& strip, WindowId window) const;
-  bool certainly_dominated(const predicates::Unfolding<double>& at, double weight, double weight_error, std::uint8_t side) const;
   template <class T>
   predicates::Site<robust::Ball<T>> make_site(const FacetSite& site, const predicates::Unfolding<T>& at, const robust::Ball<T>& weight,
                                               const predicates::EdgeFrame<T>& first, double unit) const;

@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "gvd/kernel/distance_field.hpp"
+#include "window_interval.hpp"
 
 namespace gvd::kernel {
 
@@ -19,14 +20,8 @@ class Propagation {
   using Frame = predicates::EdgeFrame<double>;
 
   /// A window while it waits to cross the face: its numbers in the frame of its half-edge.
-  struct Wave {
-    Image image, cone0, cone1;
-    double begin, end;     // an interval of [0, 1] that contains what is seen and may be shortest
-    double weight;         // D at the root, mesh units
-    float weight_error;    // of the weight, mesh units
-    float image_error;     // radius of a disc about image, cone0 and cone1 alike, mesh units
-    float begin_slack, end_slack;      // [begin + begin_slack, end - end_slack] is certainly seen
-    bool begin_trimmed = false, end_trimmed = false;  // beyond it another window is certainly shorter
+  struct Wave : WindowInterval {
+    Image cone0, cone1;
     WindowId window;
     std::uint32_t next;
   };
@@ -56,8 +51,6 @@ class Propagation {
   void drain();
   void cross_face(HalfedgeId h);
   void trim_list(HalfedgeId h);
-  enum class Trim : std::uint8_t { none, drop_first, drop_second };
-  Trim trim(Wave& first, Wave& second, double length);
   Sight locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame);
   Sight decide_apex(const Wave& wave, HalfedgeId h);
   template <bool kLeft>

@@ -16,15 +16,17 @@ namespace gvd::kernel {
 /// A window as it is kept: a strip, nothing else (docs/architecture.md#windows). Its numbers are made again by replaying the strip.
 struct WindowRecord {
   WindowId parent;         ///< kNone: seen from the root over the first edge
-  std::uint32_t packed;    ///< half-edge and two flags
+  std::uint32_t packed;    ///< half-edge and three flags
   VertexId root;
   WindowId next;           ///< the next window of the same half-edge
 
   static constexpr std::uint32_t kApexInCone = 1u << 31;  ///< made where its parent's cone contained the apex: that apex bounds this cone
   static constexpr std::uint32_t kDead = 1u << 30;        ///< superseded (first windows only): the same strip was emitted again
-  HalfedgeId halfedge() const noexcept { return packed & ~(kApexInCone | kDead); }
+  static constexpr std::uint32_t kDominated = 1u << 29;    ///< another window of its half-edge is shorter at every point of it
+  HalfedgeId halfedge() const noexcept { return packed & ~(kApexInCone | kDead | kDominated); }
   bool apex_in_cone() const noexcept { return (packed & kApexInCone) != 0; }
   bool dead() const noexcept { return (packed & kDead) != 0; }
+  bool dominated() const noexcept { return (packed & kDominated) != 0; }
 };
 
 /// A path to a vertex that doubles could not rule out: through a window whose apex the vertex is, or straight along an edge.

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+#include "gvd/predicates/frame.hpp"
+
+namespace gvd::kernel {
+
+/// The numbers of a window in the frame of its half-edge, with error bounds; lengths in scaled units.
+struct WindowInterval {
+  predicates::Complex<double> image;
+  double begin, end;             ///< an interval of [0, 1] that contains what is seen and may be shortest
+  double weight;                 ///< D at the root
+  float weight_error;            ///< of the weight
+  float image_error;             ///< radius of a disc about the image (and the cone's vertices), as a length
+  float begin_slack, end_slack;  ///< [begin + begin_slack, end - end_slack] is certainly seen
+  bool begin_trimmed, end_trimmed;  ///< beyond it another window is certainly shorter
+};
+
+enum class Trim : std::uint8_t { none, drop_first, drop_second };
+
+/// Cuts off what is certainly longer where two windows of one half-edge of that length overlap, or tells that one is longer everywhere.
+/// Only the ends of the intervals of doubles move; the cones stay, so nothing that is decided exactly depends on it.
+/// Pre: first.begin <= second.begin. Error bounds: docs/error-bounds.md#trimming.
+Trim trim(WindowInterval& first, WindowInterval& second, double length);
+
+}  // namespace gvd::kernel
