@@ -112,6 +112,21 @@ void Contenders::find_tangencies(FacetLadder& ladder) {
       }
     }
   }
+  eclipsed_.assign(n * n, 0);
+  for (std::size_t p = 0; p < n; ++p)
+    for (std::size_t r = 0; r < n; ++r)
+      if (p != r && (tangent_[p * n + r] != kNotTangent || finds_eclipse(ladder, list_[p], list_[r]))) eclipsed_[p * n + r] = 1;
+}
+
+/// Asks for identity only where doubles cannot exclude it: the difference of the weights must be the distance of the images.
+bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
+  if (relay.corner != FacetSite::kNoCorner && wave.attains_corner[relay.corner]) return true;
+  if (!wave.has_cone) return false;
+  const auto &a = *ladder.filter().sites[wave.site], &b = *ladder.filter().sites[relay.site];
+  const auto gap = square(a.image.x - b.image.x) + square(a.image.y - b.image.y) - square(b.weight - a.weight);
+  if (maybe_sign(gap) || maybe_sign(b.weight - a.weight) == Sign::negative) return false;
+  return waves_.is_own_relay(wave.site, relay.site) || waves_.is_own_relay(wave.cone_site[0], relay.site) ||
+         waves_.is_own_relay(wave.cone_site[1], relay.site);
 }
 
 }  // namespace gvd::kernel

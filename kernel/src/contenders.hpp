@@ -51,6 +51,9 @@ class Contenders {
   /// is nearer), or kNotTangent.
   int tangent_end(std::size_t parent, std::size_t relay) const { return tangent_[parent * list_.size() + relay]; }
   bool tangent(std::size_t a, std::size_t b) const { return tangent_end(a, b) != kNotTangent || tangent_end(b, a) != kNotTangent; }
+  /// Whether `relay` is, by identity, nowhere nearer than `wave`, cones aside: the path to the relay goes through `wave`'s strip, so its weight is
+  /// that of `wave` plus the distance of the images, and their bisector is the ray beyond the relay. (Tangent pairs are of this kind.)
+  bool eclipses(std::size_t wave, std::size_t relay) const { return eclipsed_[wave * list_.size() + relay] != 0; }
   std::string name(std::size_t i) const;
   /// Per site the one that stands for it: itself, or the lowest of the windows with its image.
   const std::vector<std::uint32_t>& representatives() const { return representative_; }
@@ -60,11 +63,13 @@ class Contenders {
   bool same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   void find_tangencies(FacetLadder& ladder);
+  bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
 
   FacetWaves& waves_;
   std::vector<Contender> list_;
   std::vector<std::uint32_t> representative_;
   std::vector<signed char> tangent_;
+  std::vector<std::uint8_t> eclipsed_;
 };
 
 }  // namespace gvd::kernel

@@ -109,6 +109,7 @@ std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::siz
 std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::uint32_t from, std::uint32_t to) {
   const int leaves = contenders_.tangent_end(from, to), arrives = contenders_.tangent_end(to, from);
   if (leaves == Contenders::kNotTangent && arrives == Contenders::kNotTangent) {
+    if (contenders_.eclipses(from, to) || contenders_.eclipses(to, from)) return std::nullopt;
     const Event event{from, to};
     if (tie_is_at_corner(side, event)) return std::nullopt;
     return event;
@@ -130,12 +131,9 @@ bool OutlineWalk::tie_is_at_corner(std::size_t side, const Event& event) {
   const std::size_t start = side, end = (side + 1) % 3;
   const Contender &from = contenders_[event.from], &to = contenders_[event.to];
   if (from.attains_corner[start] && to.attains_corner[start]) {
-    // A corner's own distance never grows slower than another's: it cannot overtake, nor be overtaken later.
-    if (from.corner == start || to.corner == start) return true;
     if (corners_.nearer_beside(start, CornerOrder::Direction::outgoing, event.from, event.to) != Sign::positive) return true;
   }
   if (from.attains_corner[end] && to.attains_corner[end]) {
-    if (from.corner == end || to.corner == end) return true;
     if (corners_.nearer_beside(end, CornerOrder::Direction::incoming, event.from, event.to) != Sign::negative) return true;
   }
   return ladder_.failed();

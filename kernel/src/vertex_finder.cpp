@@ -47,6 +47,8 @@ std::optional<BisectorVertices::Triple> BisectorVertices::triple(std::uint32_t i
   const std::array<std::uint32_t, 3> w{i, j, k};
   for (std::size_t first = 0; first < 3; ++first) {
     const std::uint32_t a = w[first], b = w[(first + 1) % 3], third = w[(first + 2) % 3];
+    const bool one_ray = contenders_.eclipses(a, b) || contenders_.eclipses(b, a);
+    if (one_ray && !contenders_.tangent(a, b)) return std::nullopt;  // they tie where the first does not see, or at the corner only
     for (const bool relay_first : {true, false}) {
       const std::uint32_t relay = relay_first ? a : b, parent = relay_first ? b : a;
       const int end = contenders_.tangent_end(parent, relay);
@@ -88,14 +90,14 @@ BisectorVertices::Verdict BisectorVertices::conflict(const FacetNumbers<NT>& num
     return inside[0] != Sign::negative && inside[1] != Sign::negative;
   };
   for (const std::uint32_t own : t.waves)  // behind the boundary ray of one of the three, which strictly sees p: never nearer
-    if (contenders_.tangent_end(own, rival) != Contenders::kNotTangent) return Verdict::pass;
+    if (contenders_.tangent_end(own, rival) != Contenders::kNotTangent || contenders_.eclipses(own, rival)) return Verdict::pass;
   for (const std::uint32_t own : t.waves) {
     const int end = contenders_.tangent_end(rival, own);
-    if (end == Contenders::kNotTangent) continue;
+    if (end == Contenders::kNotTangent && !contenders_.eclipses(rival, own)) continue;
     // The parent of one of the three is nearer strictly inside its cone, equal on the ray.
     if (!look()) return Verdict::pass;
     if (!inside[0] || !inside[1]) return Verdict::open;
-    return inside[static_cast<std::size_t>(end)] == Sign::positive ? Verdict::reject : Verdict::tie;
+    return end == Contenders::kNotTangent || inside[static_cast<std::size_t>(end)] == Sign::positive ? Verdict::reject : Verdict::tie;
   }
   const auto relative = relative_wave(waves_, numbers, contenders_[t.pivot].site, wave.site);
   const MaybeSign excess = maybe_sign(predicates::lifted_excess(relative, vertex));

@@ -59,10 +59,10 @@ class FacetWaves {
   virtual const predicates::Site<robust::Exact>* exact_site(std::size_t i) = 0;
   // References and pointers stay valid while the object lives, except those to M numbers: until other `bits` are asked for.
 
-  /// Pre: `relay` is a window whose root is a cone vertex of window `parent`. Whether the relay's wave is the one that goes on along the
-  /// parent's boundary ray: the strip of `relay` is the end of the strip of `parent` (same half-edges crossed). Then its image is that cone
-  /// vertex by identity. Asked only where doubles cannot tell the two points apart; so the default is wrong only where a
-  /// different strip of the same relay has an image closer than rounding errors.
+  /// Whether the path to the root of `relay` goes through the strip of window `parent`, which turns about that root and then crosses the same
+  /// faces as the strip of `relay`: then the relay's image lies on a ray of the parent and the weights differ by the distance of the images,
+  /// by identity. Asked only where doubles cannot exclude it; so the default is wrong only where a different strip of the same relay has an image
+  /// closer than rounding errors.
   virtual bool is_own_relay(std::size_t parent, std::size_t relay) {
     static_cast<void>(parent);
     static_cast<void>(relay);
