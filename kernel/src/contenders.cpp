@@ -32,6 +32,7 @@ Contenders::Contenders(FacetWaves& waves, FacetLadder& ladder) : waves_(waves) {
       c.cone_site = {i, i};
     }
     c.attains_corner = site.attains_corner;
+    c.path_to_corner = site.path_to_corner;
     list_.push_back(c);
   }
   merge_same_images(ladder);
@@ -82,11 +83,14 @@ void Contenders::merge_same_images(FacetLadder& ladder) {
       left.attains_cone[1] = right.attains_cone[1];
       left.cone_site[1] = right.cone_site[1];
       left.entry |= right.entry;
-      const std::uint32_t lowest = std::min(left.site, right.site);
+const std::uint32_t lowest = std::min(left.site, right.site);
       for (std::uint32_t& site : representative_)
         if (site == left.site || site == right.site) site = lowest;
       left.site = lowest;
-      for (std::size_t k = 0; k < 3; ++k) left.attains_corner[k] = left.attains_corner[k] || right.attains_corner[k];
+      for (std::size_t k = 0; k < 3; ++k) {
+        left.attains_corner[k] = left.attains_corner[k] || right.attains_corner[k];
+        if (left.path_to_corner[k] == FacetSite::kNoPath) left.path_to_corner[k] = right.path_to_corner[k];
+      }
       list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(j));
       i = static_cast<std::size_t>(-1);  // start again: the merged cone may touch another
       break;

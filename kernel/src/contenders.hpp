@@ -21,7 +21,13 @@ struct Contender {
   std::array<bool, 2> attains_cone{false, false};
   std::array<std::uint32_t, 2> cone_site{0, 0};
   std::array<bool, 3> attains_corner{false, false, false};
+  std::array<std::uint64_t, 3> path_to_corner{FacetSite::kNoPath, FacetSite::kNoPath, FacetSite::kNoPath};
 
+  /// Whether both are known to have one and the same distance at corner k.
+  bool ties_at_corner(const Contender& other, std::size_t k) const {
+    return (attains_corner[k] && other.attains_corner[k]) ||
+           (path_to_corner[k] != FacetSite::kNoPath && path_to_corner[k] == other.path_to_corner[k]);
+  }
   bool enters_over(std::size_t side) const { return (entry >> side & 1) != 0; }
   /// Whether the wave is known to attain D at vertex v of the mesh; v may be a corner of the facet or bound the cone.
   bool attains(const FacetWaves& waves, VertexId v) const {

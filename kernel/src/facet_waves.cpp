@@ -21,6 +21,10 @@ using robust::Mpfr;
 
 namespace {
 
+/// Names of paths to a vertex: through a window whose apex it is, or along an edge from the root.
+std::uint64_t path_through(WindowId window) { return window; }
+std::uint64_t path_along_edge(VertexId root) { return (std::uint64_t{1} << 32) | root; }
+
 /// An exact weight of more roots than this is left to the MPFR stage.
 constexpr std::size_t kMostRoots = 4;
 
@@ -67,8 +71,10 @@ void FieldWaves::add_corner(std::uint8_t k) {
   site.corner = k;
   site.root = corner[k];
   site.labels = resolution_.labels(corner[k]);
-  for (std::uint8_t j = 0; j < 3; ++j)
+  for (std::uint8_t j = 0; j < 3; ++j) {
     site.attains_corner[j] = j == k || resolution_.attains_along_edge(corner[k], corner[j]);
+    if (j != k) site.path_to_corner[j] = path_along_edge(corner[k]);
+  }
   predicates::Site<F> numbers;
   if (k == 0) numbers.image = {F(0.0), F(0.0)};
   if (k == 1) numbers.image = {F(1.0), F(0.0)};
@@ -158,6 +164,7 @@ void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
   }
   const std::uint8_t opposite = static_cast<std::uint8_t>((side + 2) % 3);
   site.attains_corner[opposite] = resolution_.attains(window, corner[opposite]);
+  site.path_to_corner[opposite] = path_through(window);
   const double unit = predicates::unit<double>(0);
   sites_.push_back(make_site<double>(site, arrival.at, narrowed(resolution_.distance(root)), frames(3 * face), unit));
   sites.push_back(site);
@@ -192,6 +199,10 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
 void FieldWaves::note_cone(FacetSite& site, const Strip& strip, WindowId window) const {
   const Mesh& mesh = resolution_.frames().mesh();
   std::array<bool, 2> known{false, false};
+  const auto note_path = [&](std::size_t c, std::uint64_t path) {
+    const std::size_t k = (site.side + c) % 3;
+    if (site.cone[c] == corner[k]) site.path_to_corner[k] = path;
+  };
   WindowId w = window;
   for (std::size_t i = strip.steps.size(); i-- > 0; w = field_.windows[w].parent) {
     const predicates::StripStep& step = strip.steps[i];
@@ -200,6 +211,7 @@ void FieldWaves::note_cone(FacetSite& site, const Strip& strip, WindowId window)
     const WindowId parent = field_.windows[w].parent;
     site.cone[c] = mesh.apex(field_.windows[parent].halfedge());
     site.attains_cone[c] = resolution_.attains(parent, site.cone[c]);
+    note_path(c, path_through(parent));
     known[c] = true;
   }
   const HalfedgeId first = mesh.twin(strip.opposite);
@@ -207,6 +219,7 @@ void FieldWaves::note_cone(FacetSite& site, const Strip& strip, WindowId window)
     if (known[c]) continue;
     site.cone[c] = c == 0 ? mesh.origin(first) : mesh.target(first);
     site.attains_cone[c] = resolution_.attains_along_edge(site.root, site.cone[c]);
+    note_path(c, path_along_edge(site.root));
   }
 }
 

@@ -130,10 +130,10 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
 bool OutlineWalk::tie_is_at_corner(std::size_t side, const Event& event) {
   const std::size_t start = side, end = (side + 1) % 3;
   const Contender &from = contenders_[event.from], &to = contenders_[event.to];
-  if (from.attains_corner[start] && to.attains_corner[start]) {
+  if (from.ties_at_corner(to, start)) {
     if (corners_.nearer_beside(start, CornerOrder::Direction::outgoing, event.from, event.to) != Sign::positive) return true;
   }
-  if (from.attains_corner[end] && to.attains_corner[end]) {
+  if (from.ties_at_corner(to, end)) {
     if (corners_.nearer_beside(end, CornerOrder::Direction::incoming, event.from, event.to) != Sign::negative) return true;
   }
   return ladder_.failed();

@@ -26,6 +26,11 @@ struct FacetSite {
   /// Whether the wave attains D at corner k of the facet, exactly (known for all three corners of the facet).
   std::array<bool, 3> attains_corner{false, false, false};
 
+  /// The path by which the wave reaches corner k, whether that is the nearest or not; kNoPath if it does not reach it or no name is known.
+  /// Waves with the same path to a corner tie there, by identity.
+  std::array<std::uint64_t, 3> path_to_corner{kNoPath, kNoPath, kNoPath};
+
+  static constexpr std::uint64_t kNoPath = ~std::uint64_t{0};
   static constexpr std::uint8_t kNoCorner = 255;
 };
 
