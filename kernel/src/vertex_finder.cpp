@@ -55,7 +55,7 @@ std::optional<BisectorVertices::Triple> BisectorVertices::triple(std::uint32_t i
       if (end == Contenders::kNotTangent) continue;
       ++tangent_pairs;  // two of them: the rays leave one point in different directions
       if (tangent_pairs > 1 || (end == 0) != relay_first) return std::nullopt;
-      if (contenders_[third].attains(waves_, contenders_[relay].root)) return std::nullopt;  // the vertex would be the relay itself
+      if (contenders_.eclipses(third, relay)) return std::nullopt;  // two rays that meet in the relay itself only
       result.on_ray = true;
       result.pivot = relay;
       result.other = third;
