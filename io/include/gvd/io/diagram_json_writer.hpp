@@ -6,7 +6,7 @@
 
 namespace gvd::io {
 
-/// The whole diagram as JSON (docs/formats.md#diagram, docs/diagram-schema.json): every arc analytically, with enclosures. One element a
+/// The whole diagram as JSON (docs/formats.md#diagramjson, docs/diagram-schema.json): every arc analytically, with enclosures. One element a
 /// line. Holds no times and no memory figures: equal results give equal bytes. Cost: linear in the size of the diagram.
 void write_diagram_json(std::ostream& out, const ResultView& view);
 

@@ -6,7 +6,7 @@
 
 namespace gvd::io {
 
-/// CSV with the columns `vertex,distance,source`, one line a vertex in the order of the file (docs/formats.md#distances). Distances in
+/// CSV with the columns `vertex,distance,source`, one line a vertex in the order of the file (docs/formats.md#distancescsv). Distances in
 /// shortest round-trip form; `inf` and -1 where unreachable; all nearest sources of a tie, as `3;17`. Cost: O(vertices).
 void write_distances(std::ostream& out, const VertexResults& vertices);
 
