@@ -47,7 +47,7 @@ std::vector<std::uint8_t> filtered_rows(std::span<const std::uint8_t> pixels, st
 std::vector<std::byte> deflated(const std::vector<std::uint8_t>& raw) {
   uLongf size = compressBound(static_cast<uLong>(raw.size()));
   std::vector<std::byte> out(size);
-  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, raw.data(), static_cast<uLong>(raw.size()), Z_BEST_COMPRESSION) != Z_OK)
+  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, raw.data(), static_cast<uLong>(raw.size()), Z_DEFAULT_COMPRESSION) != Z_OK)
     throw InternalError("the hill shade could not be compressed");
   out.resize(size);
   return out;

@@ -39,7 +39,7 @@ TEST(DiagramVtp, HasOnePolylineAnEdgeWithItsTwoSources) {
 }
 
 TEST(DiagramVtp, PolylineKeepsTheStatedDeviation) {
-  const test::SquareDiagram square(2);
+  const test::SquareDiagram square(1.5);
   for (const double deviation : {1e-2, 1e-4, 1e-6}) {
     const Xml file = written(io::write_diagram_vtp, square.view(), deviation);
     const auto p = data_array<double>(file.get_child("Piece.Points"), "Points");

@@ -9,7 +9,7 @@
 namespace gvd::test {
 
 /// A square of side 4 cut along its rising diagonal, source 0 in the lower left corner, source 1 in the lower right one, with the weight w
-/// (0 <= w < 4) for source 1. Their diagram is known in closed form: |p| = w + |p - (4,0)|, one GVD edge of two arcs from the lower to the upper side.
+/// (0 <= w <= 1.5) for source 1. Their diagram is known in closed form: |p| = w + |p - (4,0)|, one GVD edge of two arcs from the lower to the upper side.
 class SquareDiagram {
  public:
   explicit SquareDiagram(double w = 1)

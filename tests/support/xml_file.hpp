@@ -40,8 +40,9 @@ inline std::vector<unsigned char> decode_base64(const std::string& text) {
 template <class Number>
 std::vector<Number> data_array(const Xml& parent, const std::string& name) {
   const std::string type = std::is_same_v<Number, double> ? "Float64" : sizeof(Number) == 8 ? "Int64" : "Int32";
-  for (const auto& [tag, child] : parent) {
-    if (tag != "DataArray" || child.get<std::string>("<xmlattr>.Name") != name) continue;
+  for (const Xml::value_type& entry : parent) {
+    const Xml& child = entry.second;
+    if (entry.first != "DataArray" || child.get<std::string>("<xmlattr>.Name") != name) continue;
     if (child.get<std::string>("<xmlattr>.type") != type) throw std::runtime_error(name + " is not of type " + type);
     const auto bytes = decode_base64(child.data());
     std::uint64_t size = 0;
