@@ -83,7 +83,7 @@ void Contenders::merge_same_images(FacetLadder& ladder) {
       left.attains_cone[1] = right.attains_cone[1];
       left.cone_site[1] = right.cone_site[1];
       left.entry |= right.entry;
-const std::uint32_t lowest = std::min(left.site, right.site);
+      const std::uint32_t lowest = std::min(left.site, right.site);
       for (std::uint32_t& site : representative_)
         if (site == left.site || site == right.site) site = lowest;
       left.site = lowest;
