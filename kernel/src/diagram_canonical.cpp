@@ -66,9 +66,9 @@ class Canonical {
   /// Ends and break points in order, with the label sets on the left and right; read in the direction that comes first in the alphabet.
   std::string edge(const GvdEdge& e) const {
     std::vector<std::string> stops;
-    for (const std::uint32_t a : e.arcs) {
-      const std::uint32_t point = d_.arcs[a].node[0];
-      const bool end = &a == &e.arcs.front() && !e.closed;
+    for (std::size_t i = 0; i < e.arcs.size(); ++i) {
+      const std::uint32_t point = d_.arcs[e.arcs[i]].node[0];
+      const bool end = i == 0 && !e.closed;
       if (end || is_break_[point] != 0) stops.push_back(stop(point));
     }
     if (!e.closed) stops.push_back(stop(e.end[1]));

@@ -47,13 +47,13 @@ bool facet_has_exact(FacetWaves& waves, std::initializer_list<std::uint32_t> sit
                      [&](std::uint32_t site) { return site == FacetTessellation::kNoSite || waves.exact_site(site) != nullptr; });
 }
 
-/// Tries one stage after the other until `attempt(NT(), bits)` returns true.
-template <class Attempt>
-Stage climb(bool has_exact, Attempt&& attempt) {
+/// Tries one stage after the other until `attempt(NT(), bits)` returns true; exact numbers only if `has_exact()`.
+template <class HasExact, class Attempt>
+Stage climb(const HasExact& has_exact, const Attempt& attempt) {
   if (attempt(FacetWaves::DD(), 0)) return Stage::double_double;
   for (const int bits : {128, 256})
     if (attempt(FacetWaves::M(), bits)) return Stage::mpfr;
-  if (has_exact && attempt(robust::Exact(), 0)) return Stage::algebra;
+  if (has_exact() && attempt(robust::Exact(), 0)) return Stage::algebra;
   for (const int bits : {512, 1024})
     if (attempt(FacetWaves::M(), bits)) return Stage::mpfr;
   return Stage::undecided;
@@ -73,7 +73,9 @@ class PointBuilder {
     point.face = in_.refined.input_face(facet.face);
     if (place.kind == Place::Kind::edge && !in_.refined.is_artificial(place.halfedge)) point.edge = input_edge(in_, place.halfedge);
     const auto& node = facet.tessellation->nodes[place.node];
-    const bool has_exact = facet_has_exact(*facet.waves, {node.defining[0], node.defining[1], node.defining[2], node.ray});
+    const auto has_exact = [&] {
+      return facet_has_exact(*facet.waves, {node.defining[0], node.defining[1], node.defining[2], node.ray});
+    };
     return climb(has_exact, [&]<class NT>(const NT&, int bits) { return accept(numbers<NT>(place, facet, bits), point); });
   }
 
@@ -170,7 +172,7 @@ class ArcBuilder {
     const FacetSite &l = left.sites[beside[0]->site], &r = right.sites[beside[1]->site];
     arc.labels = {l.labels, r.labels};
     arc.root = {l.root, r.root};
-    climb(false, [&]<class NT>(const NT&, int bits) { return numbers<NT>(beside, home, arc, bits); });
+    climb([] { return false; }, [&]<class NT>(const NT&, int bits) { return numbers<NT>(beside, home, arc, bits); });
   }
 
  private:
