@@ -53,6 +53,10 @@ bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Co
       return true;
     }
   }
+  if (waves_.have_one_image(left.cone_site[1], right.cone_site[0])) {
+    ladder.count(Predicate::edge_tie, robust::Stage::identity);
+    return true;
+  }
   const auto same = ladder.for_each_stage([&](const auto& numbers, robust::Stage) -> std::optional<bool> {
     const auto &a = numbers.sites[left.site]->image, &b = numbers.sites[right.site]->image;
     const robust::MaybeSign x = maybe_sign(a.x - b.x), y = maybe_sign(a.y - b.y);

@@ -49,7 +49,7 @@ PlanePoint<Ball<T>> balls(const Disc<T>& z) {
 }  // namespace
 
 FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f)
-    : resolution_(resolution), field_(resolution.field()) {
+    : resolution_(resolution), field_(resolution.field()), kinds_(kinds) {
   const Frames& frames = resolution.frames();
   const Mesh& mesh = frames.mesh();
   face = f;
@@ -171,6 +171,29 @@ void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
   strips_.push_back(std::move(arrival.strip));
 }
 
+/// Compares the two strips between the part they share at the root and the part they share at the facet: what lies between them are the
+/// vertices on the right of the left one, which must be those on the left of the right one.
+bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
+  if (sites[left].root != sites[right].root || sites[left].window == kNone || sites[right].window == kNone) return false;
+  const Strip &a = strips_[left], &b = strips_[right];
+  if (a.opposite != b.opposite) return false;
+  std::size_t begin = 0, a_end = a.steps.size(), b_end = b.steps.size();
+  while (begin < a_end && begin < b_end && a.steps[begin].side == b.steps[begin].side) ++begin;
+  while (a_end > begin && b_end > begin && a.steps[a_end - 1].side == b.steps[b_end - 1].side) --a_end, --b_end;
+  const Mesh& mesh = resolution_.frames().mesh();
+  const auto between = [&](const Strip& strip, std::size_t end, bool right_side) {
+    std::vector<VertexId> chain;
+    for (std::size_t i = begin; i < end; ++i) {  // the side is directed against the half-edge that the window comes in over
+      const VertexId v = right_side ? mesh.origin(strip.steps[i].side) : mesh.target(strip.steps[i].side);
+      if (chain.empty() || chain.back() != v) chain.push_back(v);
+    }
+    return chain;
+  };
+  const std::vector<VertexId> chain = between(a, a_end, true);
+  if (chain.empty() || chain != between(b, b_end, false)) return false;
+  return std::all_of(chain.begin(), chain.end(), [&](VertexId v) { return kinds_[v] == VertexKind::flat && !mesh.is_boundary(v); });
+}
+
 /// The relay's strip must be the end of the parent's, and before that the parent's strip must turn about the relay since it arrived there.
 bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
   const Mesh& mesh = resolution_.frames().mesh();
@@ -264,9 +287,24 @@ FieldWaves::Precise& FieldWaves::precise() {
   if (!precise_) {
     precise_ = std::make_unique<Precise>();
     precise_->dd_sites.resize(sites.size());
-    precise_->m_sites.resize(sites.size());
   }
   return *precise_;
+}
+
+FieldWaves::Precise::AtBits& FieldWaves::at_bits(int bits) {
+  auto [it, added] = precise().at_bits.try_emplace(bits);
+  Precise::AtBits& at = it->second;
+  if (added) {
+    at.sites.resize(sites.size());
+    const auto first = at.frames(resolution_.frames(), 3 * face, bits);
+    at.frame = std::make_unique<predicates::FacetFrame<M>>(make_frame<Mpfr>(first, predicates::unit<Mpfr>(bits)));
+  }
+  return at;
+}
+
+void FieldWaves::forget_frames() {
+  if (!precise_) return;
+  for (auto& [bits, at] : precise_->at_bits) at.frames = {};
 }
 
 const predicates::FacetFrame<FieldWaves::DD>& FieldWaves::frame(DD) {
@@ -290,31 +328,18 @@ const predicates::Site<FieldWaves::DD>& FieldWaves::site(std::size_t i, DD) {
   return *p.dd_sites[i];
 }
 
-const predicates::FacetFrame<FieldWaves::M>& FieldWaves::frame(M, int bits) {
-  Precise& p = precise();
-  if (p.bits != bits) {
-    p.bits = bits;
-    p.m_frame.reset();
-    for (auto& s : p.m_sites) s.reset();
-  }
-  if (!p.m_frame) {
-    const auto first = resolution_.frames().in_mpfr(face, bits)[0];
-    p.m_frame = std::make_unique<predicates::FacetFrame<M>>(make_frame<Mpfr>(first, predicates::unit<Mpfr>(bits)));
-  }
-  return *p.m_frame;
-}
+const predicates::FacetFrame<FieldWaves::M>& FieldWaves::frame(M, int bits) { return *at_bits(bits).frame; }
 
 const predicates::Site<FieldWaves::M>& FieldWaves::site(std::size_t i, M, int bits) {
-  Precise& p = precise();
-  frame(M(), bits);
-  if (!p.m_sites[i]) {
-    const auto first = resolution_.frames().in_mpfr(face, bits)[0];
+  Precise::AtBits& cache = at_bits(bits);
+  if (!cache.sites[i]) {
     Unfolding<Mpfr> at;
-    if (sites[i].window != kNone) at = unfold_mpfr(resolution_.frames(), strips_[i], bits);
-    p.m_sites[i] = std::make_unique<predicates::Site<M>>(
+    if (sites[i].window != kNone) at = unfold_mpfr(resolution_.frames(), strips_[i], bits, cache.frames);
+    const auto& first = cache.frames(resolution_.frames(), 3 * face, bits);
+    cache.sites[i] = std::make_unique<predicates::Site<M>>(
         make_site<Mpfr>(sites[i], at, resolution_.distance(sites[i].root, bits), first, predicates::unit<Mpfr>(bits)));
   }
-  return *p.m_sites[i];
+  return *cache.sites[i];
 }
 
 const predicates::FacetFrame<Exact>* FieldWaves::exact_frame() {

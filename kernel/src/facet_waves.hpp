@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,9 @@ class FieldWaves final : public FacetWaves {
   const predicates::Site<robust::Exact>* exact_site(std::size_t i) override;
 
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
+  bool have_one_image(std::size_t left, std::size_t right) override;
+  /// Gives back what only the MPFR stage needs.
+  void forget_frames();
 
   /// The label set that all sites share; kNone if there are several.
   LabelSetId only_label() const noexcept;
@@ -51,6 +55,7 @@ class FieldWaves final : public FacetWaves {
 
   const Resolution& resolution_;
   const DistanceField& field_;
+  const std::vector<VertexKind>& kinds_;
   predicates::FacetFrame<F> frame_;
   std::vector<predicates::Site<F>> sites_;
   std::vector<predicates::Strip> strips_;
@@ -59,14 +64,18 @@ class FieldWaves final : public FacetWaves {
   struct Precise {
     std::unique_ptr<predicates::FacetFrame<DD>> dd_frame;
     std::vector<std::unique_ptr<predicates::Site<DD>>> dd_sites;
-    int bits = 0;
-    std::unique_ptr<predicates::FacetFrame<M>> m_frame;
-    std::vector<std::unique_ptr<predicates::Site<M>>> m_sites;
+    struct AtBits {
+      std::unique_ptr<predicates::FacetFrame<M>> frame;
+      std::vector<std::unique_ptr<predicates::Site<M>>> sites;
+      MpfrFrames frames;
+    };
+    std::map<int, AtBits> at_bits;
     bool exact_tried = false;
     std::unique_ptr<predicates::FacetFrame<robust::Exact>> exact_frame;
     std::vector<predicates::Site<robust::Exact>> exact_sites;
   };
   Precise& precise();
+  Precise::AtBits& at_bits(int bits);
   std::unique_ptr<Precise> precise_;
 };
 

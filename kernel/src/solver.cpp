@@ -130,10 +130,10 @@ class Solver {
   /// Runs work(i, decisions) for all i < n in blocks, so that neither results nor lists depend on the number of threads.
   template <class Work>
   bool in_parallel(std::size_t n, const Work& work) {
-    constexpr std::size_t kBlock = 64;
+    constexpr std::size_t kBlock = 16;
     const std::size_t blocks = (n + kBlock - 1) / kBlock;
     std::vector<predicates::Decisions> decisions(blocks);
-    const std::size_t stride = std::max<std::size_t>(1, std::size_t{256} * std::max(1u, options_.threads));
+    const std::size_t stride = std::size_t{8} * std::max(1u, options_.threads);
     tbb::task_arena arena(static_cast<int>(std::max(1u, options_.threads)));
     for (std::size_t first = 0; first < blocks; first += stride) {
       const std::size_t last = std::min(blocks, first + stride);
@@ -185,6 +185,7 @@ class Solver {
       face_labels_[several[i]] = waves->only_label();
       if (face_labels_[several[i]] != kNone) return;
       tessellations_[i] = tessellate(*waves, decisions);
+      waves->forget_frames();
       waves_[i] = std::move(waves);
     });
     if (!go_on) return false;

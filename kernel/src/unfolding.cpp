@@ -35,15 +35,20 @@ Unfolding<DoubleDouble> unfold_double_double(const Frames& frames, const Strip& 
       strip, [&](HalfedgeId h) -> const predicates::EdgeFrame<DoubleDouble>& { return frames.in_double_double(h); });
 }
 
-Unfolding<Mpfr> unfold_mpfr(const Frames& frames, const Strip& strip, int bits) {
-  std::array<predicates::EdgeFrame<Mpfr>, 3> face;
+const predicates::EdgeFrame<Mpfr>& MpfrFrames::operator()(const Frames& frames, HalfedgeId h, int bits) {
+  const auto [it, added] = of_face_.try_emplace(Mesh::face(h));
+  if (added) it->second = frames.in_mpfr(Mesh::face(h), bits);
+  return it->second[h % 3];
+}
+
+Unfolding<Mpfr> unfold_mpfr(const Frames& frames, const Strip& strip, int bits, MpfrFrames& cache) {
   return predicates::unfold<Mpfr>(
-      strip,
-      [&](HalfedgeId h) -> const predicates::EdgeFrame<Mpfr>& {
-        face = frames.in_mpfr(Mesh::face(h), bits);
-        return face[h % 3];
-      },
-      bits);
+      strip, [&](HalfedgeId h) -> const predicates::EdgeFrame<Mpfr>& { return cache(frames, h, bits); }, bits);
+}
+
+Unfolding<Mpfr> unfold_mpfr(const Frames& frames, const Strip& strip, int bits) {
+  MpfrFrames cache;
+  return unfold_mpfr(frames, strip, bits, cache);
 }
 
 namespace {

@@ -64,6 +64,14 @@ class FacetWaves {
   virtual const predicates::Site<robust::Exact>* exact_site(std::size_t i) = 0;
   // References and pointers stay valid while the object lives, except those to M numbers: until other `bits` are asked for.
 
+  /// Whether two windows of one root have the same image by identity: the left one's strip and the right one's enclose only vertices with a total
+  /// angle of exactly 2 pi. True is a proof, false says nothing.
+  virtual bool have_one_image(std::size_t left, std::size_t right) {
+    static_cast<void>(left);
+    static_cast<void>(right);
+    return false;
+  }
+
   /// Whether the path to the root of `relay` goes through the strip of window `parent`, which turns about that root and then crosses the same
   /// faces as the strip of `relay`: then the relay's image lies on a ray of the parent and the weights differ by the distance of the images,
   /// by identity. Asked only where doubles cannot exclude it; so the default is wrong only where a different strip of the same relay has an image

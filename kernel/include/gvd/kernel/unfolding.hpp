@@ -2,7 +2,9 @@
 
 #include <gmpxx.h>
 
+#include <array>
 #include <optional>
+#include <unordered_map>
 
 #include "gvd/kernel/distance_field.hpp"
 #include "gvd/kernel/frames.hpp"
@@ -15,6 +17,16 @@ predicates::Strip strip_of(const Mesh& mesh, const DistanceField& field, WindowI
 
 predicates::Unfolding<double> unfold_double(const Frames& frames, const predicates::Strip& strip);
 predicates::Unfolding<robust::DoubleDouble> unfold_double_double(const Frames& frames, const predicates::Strip& strip);
+
+/// MPFR frames of one precision, kept while strips that share faces are unfolded.
+class MpfrFrames {
+ public:
+  const predicates::EdgeFrame<robust::Mpfr>& operator()(const Frames& frames, HalfedgeId h, int bits);
+
+ private:
+  std::unordered_map<FaceId, std::array<predicates::EdgeFrame<robust::Mpfr>, 3>> of_face_;
+};
+predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits, MpfrFrames& cache);
 predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits);
 
 /// A point x + i y sqrt(N) of a frame, N the radicand that the strip has in common.
