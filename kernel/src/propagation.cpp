@@ -8,6 +8,7 @@
 #include "gvd/kernel/unfolding.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/predicates/orientation.hpp"
+#include "shadow.hpp"
 
 namespace gvd::kernel {
 
@@ -182,93 +183,10 @@ void Propagation::emit(VertexId v, HalfedgeId outgoing) {
   push(target);
 }
 
-namespace {
-
-/// Turns by less than half a turn a step; says when half a turn may be full.
-class HalfTurn {
- public:
-  explicit HalfTurn(predicates::Complex<double> start) : at_(start) {}
-  /// Multiplies by the corner's direction; true if the sum of the angles may have reached pi.
-  bool reached_by(double x, double y) {
-    const predicates::Complex<double> p{at_.x * x - at_.y * y, at_.x * y + at_.y * x};
-    error_ = error_ + 24 * kUnit;
-    const double size = norm1(p.x, p.y);
-    at_ = {p.x / size, p.y / size};
-    return at_.y <= error_;
-  }
-
- private:
-  predicates::Complex<double> at_;
-  double error_ = 24 * kUnit;
-};
-
-}  // namespace
-
 void Propagation::emit_shadow(VertexId v, const Candidate& arrival) {
-  // The fan, counter-clockwise: face i of the fan lies between outgoing[i] and the next one.
-  thread_local std::vector<HalfedgeId> fan;
-  fan.clear();
-  mesh_.for_each_outgoing(v, [&](HalfedgeId h) { fan.push_back(h); });
-  const std::size_t n = fan.size();
-  const bool closed = !mesh_.is_boundary(v);
-  std::size_t ccw_face, cw_steps_from;  // first whole face counter-clockwise; number of faces before which we go clockwise
-  Image ccw_start, cw_start;            // the angle already turned at the arrival's face
-  if (arrival.window != kNone) {
-    const HalfedgeId h = field_.windows[arrival.window].halfedge();
-    const std::size_t k = static_cast<std::size_t>(std::find(fan.begin(), fan.end(), Mesh::prev(h)) - fan.begin());
-    const Frame& f = frames_[h];
-    const Image back{arrival.image.x - f.u, arrival.image.y - f.y};
-    const Image to_a{-f.u, -f.y}, to_b{f.v, -f.y};
-    ccw_start = {to_b.x * back.x + to_b.y * back.y, to_b.y * back.x - to_b.x * back.y};
-    cw_start = {back.x * to_a.x + back.y * to_a.y, back.y * to_a.x - back.x * to_a.y};
-    ccw_face = k + 1;
-    cw_steps_from = k;
-  } else {
-    std::size_t k = 0;
-    while (k < n && mesh_.target(fan[k]) != arrival.via) ++k;
-    ccw_start = cw_start = {1, 0};
-    ccw_face = k;  // k == n: along the last edge of a boundary fan
-    cw_steps_from = k;
-  }
-  const auto normalised = [](Image z) {
-    const double size = norm1(z.x, z.y);
-    return Image{z.x / size, z.y / size};
-  };
-  // Counter-clockwise: the first face in which half a turn may be full.
-  HalfTurn ccw(normalised(ccw_start)), cw(normalised(cw_start));
-  std::optional<std::size_t> first, last;
-  for (std::size_t step = 0; step < n; ++step) {
-    const std::size_t i = ccw_face + step;
-    if (!closed && i >= n) break;
-    const Frame& f = frames_[fan[i % n]];
-    if (ccw.reached_by(f.u, f.y)) {
-      first = i;
-      break;
-    }
-  }
-  for (std::size_t step = 1; step <= n; ++step) {
-    if (!closed && cw_steps_from < step) break;
-    const std::size_t i = (cw_steps_from + n - step) % n;
-    const Frame& f = frames_[fan[i]];
-    if (cw.reached_by(f.u, f.y)) {
-      last = i;
-      break;
-    }
-  }
-  if (closed) {
-    if (!first || !last) {  // no shadow could be told apart: the whole fan is safe
-      emit_all(v);
-      return;
-    }
-    for (std::size_t i = *first % n;; i = (i + 1) % n) {
-      emit(v, fan[i]);
-      if (i == *last) break;
-    }
-  } else {
-    for (std::size_t i = first.value_or(n); i < n; ++i) emit(v, fan[i]);
-    if (last)
-      for (std::size_t i = 0; i <= *last; ++i) emit(v, fan[i]);
-  }
+  const HalfedgeId over = arrival.window == kNone ? kNone : field_.windows[arrival.window].halfedge();
+  shadow_of(mesh_, frames_, v, over, arrival, shadow_);
+  for (const HalfedgeId outgoing : shadow_) emit(v, outgoing);
 }
 
 void Propagation::push_lists_at(VertexId v) {

@@ -78,6 +78,7 @@ class Propagation {
   std::vector<double> emitted_weight_, emitted_error_;
   std::vector<WindowId> emitted_;             // per outgoing half-edge: the first window sent over the opposite side
   std::vector<Crossing> crossings_;
+  std::vector<HalfedgeId> shadow_;
   std::vector<std::uint32_t> list_, kept_;    // of the half-edge at hand
   struct Entry {
     double distance;

@@ -1,0 +1,105 @@
+#include "shadow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace gvd::kernel {
+
+using Image = predicates::Complex<double>;
+using Frame = predicates::EdgeFrame<double>;
+
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+double norm1(double x, double y) { return std::fabs(x) + std::fabs(y); }
+
+/// Turns by less than half a turn a step; says when half a turn may be full.
+class HalfTurn {
+ public:
+  explicit HalfTurn(Image start) : at_(start) {}
+  /// Multiplies by the corner's direction; true if the sum of the angles may have reached pi.
+  bool reached_by(double x, double y) {
+    const Image p{at_.x * x - at_.y * y, at_.x * y + at_.y * x};
+    error_ = error_ + 24 * kUnit;
+    const double size = norm1(p.x, p.y);
+    at_ = {p.x / size, p.y / size};
+    return at_.y <= error_;
+  }
+
+ private:
+  Image at_;
+  double error_ = 24 * kUnit;
+};
+
+}  // namespace
+
+void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, HalfedgeId over, const Candidate& arrival,
+               std::vector<HalfedgeId>& faces) {
+  faces.clear();
+  // The fan, counter-clockwise: face i of the fan lies between outgoing[i] and the next one.
+  std::vector<HalfedgeId> fan;
+  mesh.for_each_outgoing(v, [&](HalfedgeId h) { fan.push_back(h); });
+  const std::size_t n = fan.size();
+  const bool closed = !mesh.is_boundary(v);
+  std::size_t ccw_face, cw_steps_from;  // first whole face counter-clockwise; number of faces before which we go clockwise
+  Image ccw_start, cw_start;            // the angle already turned at the arrival's face
+  if (over != kNone) {
+    const std::size_t k = static_cast<std::size_t>(std::find(fan.begin(), fan.end(), Mesh::prev(over)) - fan.begin());
+    const Frame& f = frames[over];
+    const Image back{arrival.image.x - f.u, arrival.image.y - f.y};
+    const Image to_a{-f.u, -f.y}, to_b{f.v, -f.y};
+    ccw_start = {to_b.x * back.x + to_b.y * back.y, to_b.y * back.x - to_b.x * back.y};
+    cw_start = {back.x * to_a.x + back.y * to_a.y, back.y * to_a.x - back.x * to_a.y};
+    ccw_face = k + 1;
+    cw_steps_from = k;
+  } else {
+    std::size_t k = 0;
+    while (k < n && mesh.target(fan[k]) != arrival.via) ++k;
+    ccw_start = cw_start = {1, 0};
+    ccw_face = k;  // k == n: along the last edge of a boundary fan
+    cw_steps_from = k;
+  }
+  const auto normalised = [](Image z) {
+    const double size = norm1(z.x, z.y);
+    return Image{z.x / size, z.y / size};
+  };
+  // Counter-clockwise: the first face in which half a turn may be full.
+  HalfTurn ccw(normalised(ccw_start)), cw(normalised(cw_start));
+  std::optional<std::size_t> first, last;
+  for (std::size_t step = 0; step < n; ++step) {
+    const std::size_t i = ccw_face + step;
+    if (!closed && i >= n) break;
+    const Frame& f = frames[fan[i % n]];
+    if (ccw.reached_by(f.u, f.y)) {
+      first = i;
+      break;
+    }
+  }
+  for (std::size_t step = 1; step <= n; ++step) {
+    if (!closed && cw_steps_from < step) break;
+    const std::size_t i = (cw_steps_from + n - step) % n;
+    const Frame& f = frames[fan[i]];
+    if (cw.reached_by(f.u, f.y)) {
+      last = i;
+      break;
+    }
+  }
+  if (closed) {
+    if (!first || !last) {  // no shadow could be told apart: the whole fan is safe
+      faces = fan;
+      return;
+    }
+    for (std::size_t i = *first % n;; i = (i + 1) % n) {
+      faces.push_back(fan[i]);
+      if (i == *last) break;
+    }
+  } else {
+    for (std::size_t i = first.value_or(n); i < n; ++i) faces.push_back(fan[i]);
+    if (last)
+      for (std::size_t i = 0; i <= *last; ++i) faces.push_back(fan[i]);
+  }
+}
+
+}  // namespace gvd::kernel
