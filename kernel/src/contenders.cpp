@@ -48,7 +48,7 @@ bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Co
   if (separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image)) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const bool round_corner = left.cone[1] == waves_.corner[k] && right.cone[0] == waves_.corner[k];
-    if (round_corner && waves_.corner_is_flat[k] && left.attains_corner[k] && right.attains_corner[k]) {
+    if (round_corner && waves_.corner_is_flat[k] && left.ties_at_corner(right, k)) {
       ladder.count(Predicate::edge_tie, robust::Stage::identity);
       return true;
     }

@@ -128,8 +128,8 @@ std::vector<std::uint32_t> CornerOrder::envelope(std::size_t c, const std::vecto
   // A wave that turns round the corner is not seen at the other side if its ray enters the facet.
   bool right_hidden = false, left_hidden = false;
   if (!tied.middle.empty()) {
-    if (tied.right) right_hidden = ray_enters(c, *tied.right, Direction::incoming) == Sign::positive;
-    if (tied.left) left_hidden = ray_enters(c, *tied.left, Direction::outgoing) == Sign::positive;
+    if (tied.right && contenders_[*tied.right].has_cone) right_hidden = ray_enters(c, *tied.right, Direction::incoming) == Sign::positive;
+    if (tied.left && contenders_[*tied.left].has_cone) left_hidden = ray_enters(c, *tied.left, Direction::outgoing) == Sign::positive;
   }
   std::vector<std::uint32_t> kept;
   for (const std::uint32_t next : sorted) {
