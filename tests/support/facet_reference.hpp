@@ -288,7 +288,9 @@ class FacetReference {
         std::set<std::size_t> seen;
         for (int i = 1; i < 400; ++i) {
           const Real s = Real(i) / 400 * Real("1e-20");
-          const Point ahead = along(node.at, p1, Real("1e-20") - s), behind = along(node.at, p0, Real("1e-20") - s);
+          const Real r = Real("1e-20") - s;
+          const Point ahead{node.at.x + r * (p1.x - p0.x), node.at.y + r * (p1.y - p0.y)};
+          const Point behind{node.at.x - r * (p1.x - p0.x), node.at.y - r * (p1.y - p0.y)};
           seen.insert(winner(along(ahead, inner, s)));
           seen.insert(winner(along(behind, inner, s)));
         }
