@@ -41,7 +41,8 @@ struct Loop {
 
 class PieceMaker {
  public:
-  PieceMaker(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs, Diagram& d)
+  PieceMaker(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs,
+             Diagram& d)
       : in_(in), s_(s), point_of_(point_of), link_arcs_(link_arcs), d_(d), link_of_(s.darts.size(), kNone) {
     for (std::uint32_t l = 0; l < s.links.size(); ++l) link_of_[s.links[l].dart] = link_of_[s.darts[s.links[l].dart].twin] = l;
   }
@@ -57,7 +58,8 @@ class PieceMaker {
  private:
   bool is_removed(std::uint32_t d) const {
     const Dart& dart = s_.darts[d];
-    return dart.halfedge != kNone && dart.twin != kNone && in_.refined.is_artificial(dart.halfedge) && s_.darts[dart.twin].labels == dart.labels;
+    return dart.halfedge != kNone && dart.twin != kNone && in_.refined.is_artificial(dart.halfedge) &&
+           s_.darts[dart.twin].labels == dart.labels;
   }
 
   void join_over_artificial_edges() {
@@ -102,7 +104,8 @@ class PieceMaker {
     std::vector<std::uint32_t> first_of(s_.darts.size(), kNone);
     for (const Loop& loop : loops_) first_of[loop.region] = std::min(first_of[loop.region], loop.darts.front());
     std::sort(loops_.begin(), loops_.end(), [&](const Loop& a, const Loop& b) {
-      return std::tuple(a.face, first_of[a.region], a.area < 0, a.darts.front()) < std::tuple(b.face, first_of[b.region], b.area < 0, b.darts.front());
+      return std::tuple(a.face, first_of[a.region], a.area < 0, a.darts.front()) <
+             std::tuple(b.face, first_of[b.region], b.area < 0, b.darts.front());
     });
   }
 
@@ -125,7 +128,8 @@ class PieceMaker {
       return {at.x.mid(), at.y.mid()};
     }
     const bool own = place.facet == facet;
-    const std::size_t side = own ? node.where : (Mesh::face(place.halfedge) == f.face ? place.halfedge : in_.refined.twin(place.halfedge)) % 3;
+    const std::size_t side =
+        own ? node.where : (Mesh::face(place.halfedge) == f.face ? place.halfedge : in_.refined.twin(place.halfedge)) % 3;
     const double t = own ? node.t.mid() : 1 - node.t.mid();
     const P a = corner(side), b = corner((side + 1) % 3);
     return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
@@ -135,7 +139,8 @@ class PieceMaker {
     if (mapped_ != facet) {
       const Skeleton& f = s_.facets[facet];
       // A face without waves is a part of a split face: its own frame does not matter.
-      const predicates::PlanePoint<NT> apex = f.waves == nullptr ? predicates::PlanePoint<NT>{NT(0.0), NT(1.0)} : frame_in<NT>(*f.waves, 0).apex;
+      const predicates::PlanePoint<NT> apex =
+          f.waves == nullptr ? predicates::PlanePoint<NT>{NT(0.0), NT(1.0)} : frame_in<NT>(*f.waves, 0).apex;
       map_.emplace(in_.input, in_.refined, f.face, apex, 0);
       mapped_ = facet;
     }
@@ -153,8 +158,9 @@ class PieceMaker {
     const double unit = frame_in<NT>(*f.waves, 0).length.mid();
     const auto &mine = site_in<NT>(*f.waves, arc.left, 0), &other = site_in<NT>(*f.waves, arc.right, 0);
     const auto focus = map(mine.image), other_focus = map(other.image);
-    const double area = conic_area({focus.x.mid(), focus.y.mid()}, mine.weight.mid() * unit, {other_focus.x.mid(), other_focus.y.mid()},
-                                   other.weight.mid() * unit, dart.site == arc.left ? from : to, dart.site == arc.left ? to : from);
+    const double area =
+        conic_area({focus.x.mid(), focus.y.mid()}, mine.weight.mid() * unit, {other_focus.x.mid(), other_focus.y.mid()},
+                   other.weight.mid() * unit, dart.site == arc.left ? from : to, dart.site == arc.left ? to : from);
     return dart.site == arc.left ? area : -area;
   }
 
@@ -204,7 +210,8 @@ class PieceMaker {
 
   std::vector<CellPiece::Side> outline(const Loop& loop) const {
     auto darts = loop.darts;
-    const auto first = std::find_if(darts.begin(), darts.end(), [&](std::uint32_t d) { return name_of(s_.darts[d].from, loop.face) != kNone; });
+    const auto first =
+        std::find_if(darts.begin(), darts.end(), [&](std::uint32_t d) { return name_of(s_.darts[d].from, loop.face) != kNone; });
     std::rotate(darts.begin(), first, darts.end());
     std::vector<CellPiece::Side> sides;
     for (const std::uint32_t d : darts) {
@@ -249,7 +256,8 @@ class PieceMaker {
 
 // ---- Euler characteristics ----
 
-/// Counts the vertices, edges and faces of the subdivided surface that lie in the closed region of each label set, and of each source.
+/// Counts the vertices, edges and faces of the subdivided surface that lie in the closed region of each label set, and of each
+/// source.
 class EulerCount {
  public:
   EulerCount(const DiagramInput& in, const Subdivision& s)
@@ -311,7 +319,8 @@ class EulerCount {
       if (visited[d] != 0) continue;
       for (std::uint32_t x = d; visited[x] == 0; x = s_.darts[x].next) {
         visited[x] = 1;
-        if (s_.darts[x].labels != dart.labels) throw InternalError("an outline with two label sets in facet " + std::to_string(s_.facets[dart.facet].face));
+        if (s_.darts[x].labels != dart.labels)
+          throw InternalError("an outline with two label sets in facet " + std::to_string(s_.facets[dart.facet].face));
       }
       ++discs[dart.facet];
       add_inside(dart.labels, 1);
@@ -388,11 +397,14 @@ void check_euler(const DiagramInput& in, const Subdivision& s, const Chains& cha
   for (std::uint32_t p = 0; p < s.places.size(); ++p) {
     if (!is_end(chains.role[p])) continue;
     around.clear();
-    for (const LinkEnd& end : s.ends_at(p)) around.insert(around.end(), s.links[end.link].labels.begin(), s.links[end.link].labels.end());
+    for (const LinkEnd& end : s.ends_at(p))
+      around.insert(around.end(), s.links[end.link].labels.begin(), s.links[end.link].labels.end());
     std::sort(around.begin(), around.end());
     sum -= std::unique(around.begin(), around.end()) - around.begin() - 1;
   }
-  if (sum != surface) throw InternalError("Euler's formula does not hold for the diagram: " + std::to_string(sum) + " instead of " + std::to_string(surface));
+  if (sum != surface)
+    throw InternalError("Euler's formula does not hold for the diagram: " + std::to_string(sum) + " instead of " +
+                        std::to_string(surface));
 }
 
 void make_cells(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs,

@@ -9,8 +9,8 @@ namespace gvd::kernel::subdivision {
 
 /// Where the links ended up in the diagram.
 struct LinkArcs {
-  std::vector<std::uint32_t> arc;        ///< per link
-  std::vector<std::uint8_t> reversed;    ///< per link: the arc runs against it
+  std::vector<std::uint32_t> arc;      ///< per link
+  std::vector<std::uint8_t> reversed;  ///< per link: the arc runs against it
 };
 
 /// Fills face_label, pieces, boundary_facets, cells (euler, area; not neighbours), shared.

@@ -30,12 +30,16 @@ struct Chain {
 };
 
 struct Chains {
-  std::vector<Role> role;     ///< per place
+  std::vector<Role> role;  ///< per place
   std::vector<Chain> chains;
 };
 
-inline std::uint32_t from_place(const Subdivision& s, DirectedLink l) { return l.reversed ? s.links[l.link].to : s.links[l.link].from; }
-inline std::uint32_t to_place(const Subdivision& s, DirectedLink l) { return l.reversed ? s.links[l.link].from : s.links[l.link].to; }
+inline std::uint32_t from_place(const Subdivision& s, DirectedLink l) {
+  return l.reversed ? s.links[l.link].to : s.links[l.link].from;
+}
+inline std::uint32_t to_place(const Subdivision& s, DirectedLink l) {
+  return l.reversed ? s.links[l.link].from : s.links[l.link].to;
+}
 /// The dart on the left (0) or right (1) of a link.
 inline std::uint32_t dart_beside(const Subdivision& s, DirectedLink l, std::size_t side) {
   const std::uint32_t d = s.links[l.link].dart;

@@ -56,14 +56,16 @@ class Canonical {
   }
 
   std::string cell(const Cell& c) const {
-    return sources({c.source}) + (c.hidden ? " hidden" : "") + " neighbours " + sources(c.neighbours) + " euler " + std::to_string(c.euler);
+    return sources({c.source}) + (c.hidden ? " hidden" : "") + " neighbours " + sources(c.neighbours) + " euler " +
+           std::to_string(c.euler);
   }
   std::string vertex(const GvdVertex& v) const {
     return point_text(d_.points[v.point].position) + " " + sources(v.sources) + " degree " + std::to_string(v.edges.size()) +
            (v.on_boundary ? " boundary" : "");
   }
 
-  /// Ends and break points in order, with the label sets on the left and right; read in the direction that comes first in the alphabet.
+  /// Ends and break points in order, with the label sets on the left and right; read in the direction that comes first in the
+  /// alphabet.
   std::string edge(const GvdEdge& e) const {
     std::vector<std::string> stops;
     for (std::size_t i = 0; i < e.arcs.size(); ++i) {

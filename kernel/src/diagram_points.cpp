@@ -163,7 +163,9 @@ class ArcBuilder {
 
   void build(DirectedLink link, Arc& arc) const {
     const Dart* beside[2] = {&s_.darts[dart_beside(s_, link, 0)], &s_.darts[dart_beside(s_, link, 1)]};
-    const std::size_t low = in_.refined.input_face(s_.facets[beside[0]->facet].face) <= in_.refined.input_face(s_.facets[beside[1]->facet].face) ? 0 : 1;
+    const std::size_t low =
+        in_.refined.input_face(s_.facets[beside[0]->facet].face) <= in_.refined.input_face(s_.facets[beside[1]->facet].face) ? 0
+                                                                                                                             : 1;
     const Dart& home = *beside[low];
     arc.face = in_.refined.input_face(s_.facets[home.facet].face);
     arc.along_edge = home.halfedge != kNone && !in_.refined.is_artificial(home.halfedge);
@@ -265,7 +267,8 @@ std::vector<DiagramPoint> construct_points(const DiagramInput& in, const Subdivi
   for_each_owner(owner, s.facets.size() + 1, [&](std::uint32_t i) { stage[i] = builder.build(places[i], points[i]); });
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (stage[i] == Stage::undecided)
-      predicates::undecided(decisions, Predicate::rounding, "coordinates of a point of the diagram in face " + std::to_string(points[i].face));
+      predicates::undecided(decisions, Predicate::rounding,
+                            "coordinates of a point of the diagram in face " + std::to_string(points[i].face));
     else
       predicates::count(decisions, Predicate::rounding, stage[i]);
   }

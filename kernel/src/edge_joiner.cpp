@@ -2,10 +2,10 @@
 #include <optional>
 #include <string>
 
-#include "wave_numbers.hpp"
 #include "gvd/kernel/error.hpp"
 #include "node_numbers.hpp"
 #include "subdivision.hpp"
+#include "wave_numbers.hpp"
 
 namespace gvd::kernel::subdivision {
 
@@ -61,8 +61,8 @@ bool has_exact(const Skeleton& facet) {
 
 bool nonzero(const MaybeSign& sign) { return sign.has_value() && *sign != Sign::zero; }
 
-/// Whether two waves certainly do not tie along an interval of the edge: they are neither images of equal weight that are equal or mirrored in
-/// the edge, nor both on the line of the edge with a difference of weights that is their distance.
+/// Whether two waves certainly do not tie along an interval of the edge: they are neither images of equal weight that are equal or
+/// mirrored in the edge, nor both on the line of the edge with a difference of weights that is their distance.
 template <class NT>
 bool certainly_no_tie(const Shore& a, std::uint32_t site_a, const Shore& b, std::uint32_t site_b, int bits) {
   const EdgeWave<NT> x = edge_wave<NT>(a, site_a, bits), y = edge_wave<NT>(b, site_b, bits);
@@ -104,13 +104,14 @@ enum class Verdict : std::uint8_t { less, equal, greater };
 /// What one stage says about the order of two events.
 template <class NT>
 std::optional<Verdict> order_in(const Shore& left, std::uint32_t left_node, const Shore& right, std::uint32_t right_node,
-                                const std::array<std::span<const Piece>, 2>& if_less, const std::array<std::span<const Piece>, 2>& if_greater,
-                                int bits) {
+                                const std::array<std::span<const Piece>, 2>& if_less,
+                                const std::array<std::span<const Piece>, 2>& if_greater, int bits) {
   const MaybeSign sign = maybe_sign(parameter<NT>(left, left_node, bits) - parameter<NT>(right, right_node, bits));
   if (sign == Sign::negative) return Verdict::less;
   if (sign == Sign::positive) return Verdict::greater;
   if (sign == Sign::zero) return Verdict::equal;
-  if (impossible<NT>(if_less[0], if_less[1], left, right, bits) && impossible<NT>(if_greater[0], if_greater[1], left, right, bits)) return Verdict::equal;
+  if (impossible<NT>(if_less[0], if_less[1], left, right, bits) && impossible<NT>(if_greater[0], if_greater[1], left, right, bits))
+    return Verdict::equal;
   return std::nullopt;
 }
 
@@ -128,8 +129,8 @@ bool EdgeJoiner::goes_over(const DiagramInput& in, HalfedgeId h, const FacetSite
   return parent == kNone && child.root == other.root;
 }
 
-bool EdgeJoiner::same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton& left, std::uint32_t left_site, const Skeleton& right,
-                           std::uint32_t right_site) {
+bool EdgeJoiner::same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton& left, std::uint32_t left_site,
+                           const Skeleton& right, std::uint32_t right_site) {
   return any_pair(left, left_site, right, right_site,
                   [&](const FacetSite& a, const FacetSite& b) { return goes_over(in, h, a, b); });
 }
@@ -177,13 +178,15 @@ Joint EdgeJoiner::join(HalfedgeId h, const Skeleton& left, const Skeleton& right
   joint.decided = merge(view, l, r, joint.stations);
   if (joint.decided) joint.decided = insert_inner_events(view, joint);
   if (!joint.decided)
-    predicates::undecided(decisions_, Predicate::edge_tie,
-                          "order of the points where regions meet on side " + std::to_string(h % 3) + " of facet " + std::to_string(left.face));
+    predicates::undecided(
+        decisions_, Predicate::edge_tie,
+        "order of the points where regions meet on side " + std::to_string(h % 3) + " of facet " + std::to_string(left.face));
   return joint;
 }
 
 /// Merges two ascending lists of events. False if an order is unknown.
-bool EdgeJoiner::merge(const View& view, std::span<const std::size_t> left, std::span<const std::size_t> right, std::vector<Station>& out) {
+bool EdgeJoiner::merge(const View& view, std::span<const std::size_t> left, std::span<const std::size_t> right,
+                       std::vector<Station>& out) {
   std::size_t i = 0, j = 0;
   while (i < left.size() || j < right.size()) {
     Order order = i == left.size() ? Order::greater : Order::less;
@@ -208,8 +211,8 @@ bool EdgeJoiner::contradict(const View& view, std::span<const Piece> of_left, st
   return true;
 }
 
-/// The inner events [from, to) of one side that lie between two consecutive stations. Stations of the own side bound them by their order; the
-/// others are compared. Nothing if that fails.
+/// The inner events [from, to) of one side that lie between two consecutive stations. Stations of the own side bound them by their
+/// order; the others are compared. Nothing if that fails.
 std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& view, bool of_left, std::size_t from, std::size_t to,
                                                                  const Station* before, const Station* behind) {
   const auto order_against = [&](std::size_t event, const Station* station) {
@@ -233,7 +236,8 @@ std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& vie
   return found;
 }
 
-/// Where the edge itself is a piece of a GVD edge, the waves change along it, too: the events that do not change a label set become stations.
+/// Where the edge itself is a piece of a GVD edge, the waves change along it, too: the events that do not change a label set become
+/// stations.
 bool EdgeJoiner::insert_inner_events(const View& view, Joint& joint) {
   const auto essential_from = [](const SideView& side, std::size_t k) {
     while (k < side.events.size() && !side.events[k].essential) ++k;

@@ -22,7 +22,7 @@ class Extraction {
     s_ = subdivide(in_, decisions_);
     chains_ = trace(in_, s_, all_decided(decisions_));
     list_undecided_faces();
-    if (all_decided(decisions_)) check_euler(in_, s_, chains_);
+    if (all_decided(decisions_) && d_.undecided_faces.empty()) check_euler(in_, s_, chains_);
     d_.label_sets = in_.label_sets;
     keep_one_place_of_closed_chains();
     make_points();
@@ -82,8 +82,8 @@ class Extraction {
       const Point position = point_of_[p] == kNone ? Point{} : d_.points[point_of_[p]].position;
       return std::tuple(role == Role::break_point ? 0 : role == Role::crossing ? 1 : 2, position);
     };
-    const auto first = std::min_element(chain.links.begin(), chain.links.end(),
-                                        [&](DirectedLink a, DirectedLink b) { return key(a) < key(b); });
+    const auto first =
+        std::min_element(chain.links.begin(), chain.links.end(), [&](DirectedLink a, DirectedLink b) { return key(a) < key(b); });
     std::rotate(chain.links.begin(), first, chain.links.end());
   }
 

@@ -5,8 +5,8 @@
 #include "gvd/kernel/node_point.hpp"
 #include "wave_numbers.hpp"
 
-/// The points of a tessellation in any number type, asking only for the waves that define them. Where a number type cannot construct a point,
-/// the result is a ball of infinite radius.
+/// The points of a tessellation in any number type, asking only for the waves that define them. Where a number type cannot
+/// construct a point, the result is a ball of infinite radius.
 namespace gvd::kernel {
 
 template <class NT>

@@ -9,7 +9,8 @@ namespace {
 
 class Subdivider {
  public:
-  Subdivider(const DiagramInput& in, predicates::Decisions& decisions) : in_(in), mesh_(in.refined), decisions_(decisions), joiner_(in, decisions) {}
+  Subdivider(const DiagramInput& in, predicates::Decisions& decisions)
+      : in_(in), mesh_(in.refined), decisions_(decisions), joiner_(in, decisions) {}
 
   Subdivision run() {
     make_skeletons();
@@ -28,7 +29,8 @@ class Subdivider {
     s_.facet_of.assign(mesh_.face_count(), kNone);
     for (const FaceId f : faces_to_subdivide()) {
       s_.facet_of[f] = static_cast<std::uint32_t>(s_.facets.size());
-      const auto given = std::lower_bound(in_.facets.begin(), in_.facets.end(), f, [](const BoundaryFacet& a, FaceId b) { return a.face < b; });
+      const auto given =
+          std::lower_bound(in_.facets.begin(), in_.facets.end(), f, [](const BoundaryFacet& a, FaceId b) { return a.face < b; });
       if (given == in_.facets.end() || given->face != f)
         s_.facets.push_back(make_uniform_skeleton(f, in_.face_labels[f]));
       else if (given->tessellation->undecided)
@@ -65,8 +67,8 @@ class Subdivider {
     if (!all_decided(decisions_)) return;
     for (HalfedgeId h = 0; h < mesh_.halfedge_count(); ++h) {
       if (s_.facet_of[Mesh::face(h)] == kNone && !agrees_beyond(h))
-        throw InternalError("facet " + std::to_string(Mesh::face(h)) + " is not tessellated, but its label set differs from that beyond side " +
-                            std::to_string(h % 3));
+        throw InternalError("facet " + std::to_string(Mesh::face(h)) +
+                            " is not tessellated, but its label set differs from that beyond side " + std::to_string(h % 3));
     }
   }
 
@@ -134,7 +136,8 @@ class Subdivider {
       station.place = static_cast<std::uint32_t>(s_.places.size());
       Place place{.kind = Place::Kind::edge, .boundary = twin == kNone, .open = open, .halfedge = std::min(h, twin)};
       const bool both = station.node_left != kNone && station.node_right != kNone;
-      const bool mine = both ? mesh_.input_face(s_.facets[f].face) <= mesh_.input_face(s_.facets[g].face) : station.node_left != kNone;
+      const bool mine =
+          both ? mesh_.input_face(s_.facets[f].face) <= mesh_.input_face(s_.facets[g].face) : station.node_left != kNone;
       place.facet = mine ? f : g;
       place.node = mine ? station.node_left : station.node_right;
       s_.places.push_back(place);
@@ -180,14 +183,17 @@ class Subdivider {
     const VertexId v = mesh_.origin(h);
     if (facet.corner_node[k] != kNone) node_place_[facet.corner_node[k]] = s_.vertex_place[v];
     std::uint32_t piece = 0;
-    side_first_[k] = add_dart({.from = s_.vertex_place[v], .facet = f, .halfedge = h, .site = view.pieces[0].site, .labels = view.pieces[0].labels});
+    side_first_[k] = add_dart(
+        {.from = s_.vertex_place[v], .facet = f, .halfedge = h, .site = view.pieces[0].site, .labels = view.pieces[0].labels});
     for (const Station& station : stations_[3 * f + k]) {
       if (station.node_left != kNone) {
         node_place_[station.node_left] = station.place;
-        const auto event = std::find_if(view.events.begin(), view.events.end(), [&](const Event& e) { return e.node == station.node_left; });
+        const auto event =
+            std::find_if(view.events.begin(), view.events.end(), [&](const Event& e) { return e.node == station.node_left; });
         piece = event->after;
       }
-      add_dart({.from = station.place, .facet = f, .halfedge = h, .site = view.pieces[piece].site, .labels = view.pieces[piece].labels});
+      add_dart(
+          {.from = station.place, .facet = f, .halfedge = h, .site = view.pieces[piece].site, .labels = view.pieces[piece].labels});
     }
   }
 
@@ -198,7 +204,8 @@ class Subdivider {
     for (const std::uint32_t a : facet.kept) {
       const auto& arc = facet.tessellation->arcs[a];
       const std::uint32_t from = place_of(f, arc.from), to = place_of(f, arc.to);
-      const std::uint32_t d = add_dart({.from = from, .facet = f, .arc = a, .site = arc.left, .labels = facet.waves->sites[arc.left].labels});
+      const std::uint32_t d =
+          add_dart({.from = from, .facet = f, .arc = a, .site = arc.left, .labels = facet.waves->sites[arc.left].labels});
       add_dart({.from = to, .facet = f, .arc = a, .site = arc.right, .labels = facet.waves->sites[arc.right].labels});
       s_.darts[d].twin = d + 1;
       s_.darts[d + 1].twin = d;

@@ -19,10 +19,10 @@ inline bool all_decided(const predicates::Decisions& decisions) { return decisio
 struct Place {
   enum class Kind : std::uint8_t { vertex, edge, inside };
   Kind kind = Kind::inside;
-  bool boundary = false;     ///< on the boundary of the mesh
-  bool open = false;         ///< beside an undecided facet or edge: what meets here is not all known
-  VertexId vertex = kNone;   ///< vertex
-  HalfedgeId halfedge = kNone;  ///< edge: the half-edge with the lower id
+  bool boundary = false;                      ///< on the boundary of the mesh
+  bool open = false;                          ///< beside an undecided facet or edge: what meets here is not all known
+  VertexId vertex = kNone;                    ///< vertex
+  HalfedgeId halfedge = kNone;                ///< edge: the half-edge with the lower id
   std::uint32_t facet = kNone, node = kNone;  ///< edge, inside: a node of a tessellation (index into the facets) that constructs it
 };
 
@@ -32,17 +32,17 @@ struct Dart {
   std::uint32_t twin = kNone;  ///< kNone: boundary of the mesh, or the face beyond has no darts
   std::uint32_t next = kNone;  ///< the next dart round the region, within the facet
   std::uint32_t facet = kNone;
-  std::uint32_t arc = kNone;   ///< arc of the tessellation; kNone: a piece of a side
+  std::uint32_t arc = kNone;    ///< arc of the tessellation; kNone: a piece of a side
   HalfedgeId halfedge = kNone;  ///< of a piece of a side
-  std::uint32_t site = kNone;  ///< on the left; of a piece of a side: where it begins
-  LabelSetId labels = kNone;   ///< on the left
+  std::uint32_t site = kNone;   ///< on the left; of a piece of a side: where it begins
+  LabelSetId labels = kNone;    ///< on the left
 };
 
 /// A place where the regions along one side of a facet change, or where kept arcs end on it.
 struct Event {
   std::uint32_t node = kNone;
   std::uint32_t before = 0, after = 0;  ///< indices of the pieces
-  bool essential = false;  ///< the label set changes or a kept arc ends here
+  bool essential = false;               ///< the label set changes or a kept arc ends here
 };
 
 /// One region met along a side, in the order of the half-edge.
@@ -67,14 +67,14 @@ struct Spoke {
 /// One tessellated facet with the arcs between equal label sets taken away.
 struct Skeleton {
   FaceId face = kNone;
-  FacetWaves* waves = nullptr;                     ///< nullptr: a face with one label set and no tessellation
+  FacetWaves* waves = nullptr;  ///< nullptr: a face with one label set and no tessellation
   const FacetTessellation* tessellation = nullptr;
-  LabelSetId only_label = kNone;                   ///< if waves == nullptr
-  bool undecided = false;                          ///< no darts are made
-  std::vector<std::uint32_t> kept{};               ///< arcs between different label sets
+  LabelSetId only_label = kNone;      ///< if waves == nullptr
+  bool undecided = false;             ///< no darts are made
+  std::vector<std::uint32_t> kept{};  ///< arcs between different label sets
   std::array<SideView, 3> sides{};
   std::array<std::uint32_t, 3> corner_node{kNone, kNone, kNone};
-  std::vector<std::vector<Spoke>> spokes{};        ///< per node: kept arcs counter-clockwise (on the outline: from the outgoing side)
+  std::vector<std::vector<Spoke>> spokes{};  ///< per node: kept arcs counter-clockwise (on the outline: from the outgoing side)
 };
 
 /// Pre: the tessellation is not undecided. Throws InternalError if the tessellation is not a subdivision of the facet.
@@ -126,8 +126,8 @@ class EdgeJoiner {
   bool contradict(const View& view, std::span<const Piece> of_left, std::span<const Piece> of_right) const;
   bool merge(const View& view, std::span<const std::size_t> left, std::span<const std::size_t> right, std::vector<Station>& out);
   bool insert_inner_events(const View& view, Joint& joint);
-  std::optional<std::vector<std::size_t>> inner_events(const View& view, bool of_left, std::size_t from, std::size_t to, const Station* before,
-                                                       const Station* behind);
+  std::optional<std::vector<std::size_t>> inner_events(const View& view, bool of_left, std::size_t from, std::size_t to,
+                                                       const Station* before, const Station* behind);
 
   const DiagramInput& in_;
   predicates::Decisions& decisions_;
@@ -136,7 +136,7 @@ class EdgeJoiner {
 /// A piece of a GVD edge inside one facet or along one edge. It runs along its dart; the twin dart lies on the other side.
 struct Link {
   std::uint32_t dart = kNone;
-  std::uint32_t from = kNone, to = kNone;  ///< places
+  std::uint32_t from = kNone, to = kNone;          ///< places
   std::array<LabelSetId, 2> labels{kNone, kNone};  ///< left and right
 };
 
@@ -147,13 +147,13 @@ struct LinkEnd {
 };
 
 struct Subdivision {
-  std::vector<Skeleton> facets;               ///< sorted by face
-  std::vector<std::uint32_t> facet_of;        ///< per face of the refined mesh: index into `facets` or kNone
+  std::vector<Skeleton> facets;         ///< sorted by face
+  std::vector<std::uint32_t> facet_of;  ///< per face of the refined mesh: index into `facets` or kNone
   std::vector<Place> places;
-  std::vector<std::uint32_t> vertex_place;    ///< per vertex of the refined mesh, kNone if no facet touches it
+  std::vector<std::uint32_t> vertex_place;  ///< per vertex of the refined mesh, kNone if no facet touches it
   std::vector<Dart> darts;
   std::vector<Link> links;
-  std::vector<std::uint32_t> end_start;       ///< per place: range of `ends`
+  std::vector<std::uint32_t> end_start;  ///< per place: range of `ends`
   std::vector<LinkEnd> ends;
 
   std::uint32_t to(std::uint32_t dart) const { return darts[darts[dart].next].from; }

@@ -16,10 +16,10 @@ struct Enclosed {
 
 /// A constructed point of the diagram, on a face of the *input* mesh.
 struct DiagramPoint {
-  FaceId face = kNone;          ///< input face; for a point on an edge the face with the lower id
+  FaceId face = kNone;            ///< input face; for a point on an edge the face with the lower id
   std::array<Enclosed, 2> frame;  ///< in the frame of that face: corner 0 = (0,0), corner 1 = (length of the side, 0), mesh units
-  Point position{};             ///< correctly rounded 3D coordinates
-  VertexId vertex = kNone;      ///< set if the point is this vertex of the input mesh
+  Point position{};               ///< correctly rounded 3D coordinates
+  VertexId vertex = kNone;        ///< set if the point is this vertex of the input mesh
   std::array<VertexId, 2> edge{kNone, kNone};  ///< set (low id first) if it lies inside this edge of the input mesh
 };
 
@@ -29,19 +29,19 @@ struct Arc {
   enum class Conic : std::uint8_t { line, hyperbola, ray };  ///< ray: behind the focus, |dw| = |I0 - I1|
   FaceId face = kNone;
   Conic conic = Conic::line;
-  bool along_edge = false;                        ///< the arc is a piece of a mesh edge (its images are then seen from `face`, or mirrored)
+  bool along_edge = false;  ///< the arc is a piece of a mesh edge (its images are then seen from `face`, or mirrored)
   std::array<std::uint32_t, 2> node{kNone, kNone};  ///< indices into Diagram::points, in the direction of the GVD edge
-  std::array<std::array<Enclosed, 2>, 2> image;   ///< left and right image, frame of `face`
-  std::array<Enclosed, 2> weight;                 ///< distances at the (pseudo-)sources
+  std::array<std::array<Enclosed, 2>, 2> image;     ///< left and right image, frame of `face`
+  std::array<Enclosed, 2> weight;                   ///< distances at the (pseudo-)sources
   std::array<LabelSetId, 2> labels{kNone, kNone};  ///< left and right of the arc, seen along its direction from outside the surface
   std::array<VertexId, 2> root{kNone, kNone};      ///< relaying vertex (or the source's own vertex in the refined mesh)
 };
 
-/// A maximal chain of arcs between the same two label sets. It ends in GVD vertices or on the boundary of the mesh, or is closed (then it starts
-/// in its lexicographically smallest break point, or smallest crossing of a mesh edge if it has none).
+/// A maximal chain of arcs between the same two label sets. It ends in GVD vertices or on the boundary of the mesh, or is closed
+/// (then it starts in its lexicographically smallest break point, or smallest crossing of a mesh edge if it has none).
 struct GvdEdge {
   std::array<LabelSetId, 2> labels{kNone, kNone};  ///< left and right, seen along its direction from outside the surface
-  std::vector<std::uint32_t> arcs;          ///< in order
+  std::vector<std::uint32_t> arcs;                 ///< in order
   std::array<std::uint32_t, 2> end{kNone, kNone};  ///< indices into Diagram::points; equal and a break point or crossing if closed
   bool closed = false;
 };
@@ -54,7 +54,7 @@ struct BreakPoint {
 /// A point with three or more label sets around it, or one that has more nearest sources than the edges which meet there.
 struct GvdVertex {
   std::uint32_t point = kNone;
-  std::vector<SourceId> sources;  ///< all nearest sources, sorted
+  std::vector<SourceId> sources;     ///< all nearest sources, sorted
   std::vector<std::uint32_t> edges;  ///< GVD edges that end here, once per end
   bool on_boundary = false;
 };
@@ -69,8 +69,8 @@ struct BoundaryMeeting {
 struct CellPiece {
   FaceId face = kNone;
   LabelSetId labels = kNone;
-  /// A closed outline, the piece on its left. A piece of a side has arc == kNone (unless a GVD edge runs along it). `from` indexes Diagram::points, or
-  /// names a corner of the face: kCorner | (0, 1, 2). A closed arc has the same point at both ends.
+  /// A closed outline, the piece on its left. A piece of a side has arc == kNone (unless a GVD edge runs along it). `from` indexes
+  /// Diagram::points, or names a corner of the face: kCorner | (0, 1, 2). A closed arc has the same point at both ends.
   struct Side {
     std::uint32_t from = kNone;
     std::uint32_t arc = kNone;
@@ -81,14 +81,14 @@ struct CellPiece {
   static constexpr std::uint32_t kCorner = 0x80000000u;
 };
 
-/// The points with s among their nearest sources. Where a vertex relays the waves of several sources at once, a whole region has several: it belongs to
-/// all of their cells.
+/// The points with s among their nearest sources. Where a vertex relays the waves of several sources at once, a whole region has
+/// several: it belongs to all of their cells.
 struct Cell {
   SourceId source = kNone;
-  bool hidden = false;                 ///< another source reaches this one with less than its own weight: the cell is empty
-  std::vector<SourceId> neighbours;    ///< sources with which it shares a GVD edge, sorted
-  double area = 0;                     ///< for information
-  std::int64_t euler = 0;              ///< Euler characteristic of the closed cell
+  bool hidden = false;               ///< another source reaches this one with less than its own weight: the cell is empty
+  std::vector<SourceId> neighbours;  ///< sources with which it shares a GVD edge, sorted
+  double area = 0;                   ///< for information
+  std::int64_t euler = 0;            ///< Euler characteristic of the closed cell
 };
 
 struct DualEdge {
@@ -111,13 +111,13 @@ struct Diagram {
   std::vector<GvdVertex> vertices;
   std::vector<BreakPoint> break_points;
   std::vector<BoundaryMeeting> boundary_meetings;
-  std::vector<BoundaryMeeting> open_ends;   ///< edges that end because a facet is undecided
-  std::vector<FaceId> undecided_faces;      ///< input faces with an undecided facet or side, sorted; the diagram has no pieces there
-  std::vector<Cell> cells;                  ///< per source
+  std::vector<BoundaryMeeting> open_ends;  ///< edges that end because a facet is undecided
+  std::vector<FaceId> undecided_faces;     ///< input faces with an undecided facet or side, sorted; the diagram has no pieces there
+  std::vector<Cell> cells;                 ///< per source
   std::vector<DualEdge> dual;
-  std::vector<SharedRegion> shared;         ///< sorted by label set
-  std::vector<LabelSetId> face_label;       ///< per input face: its only label set; kNone for boundary, undecided and unreachable faces
-  std::vector<CellPiece> pieces;            ///< of boundary facets, sorted by face
+  std::vector<SharedRegion> shared;    ///< sorted by label set
+  std::vector<LabelSetId> face_label;  ///< per input face: its only label set; kNone for boundary, undecided and unreachable faces
+  std::vector<CellPiece> pieces;       ///< of boundary facets, sorted by face
   std::uint32_t boundary_facets = 0;
 };
 
