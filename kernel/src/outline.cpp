@@ -30,7 +30,29 @@ void OutlineWalk::enter(std::uint32_t node, std::uint32_t contender) {
   list_.push_back({contender, Piece::kNoNode});
 }
 
+/// The side of a boundary ray is linear along a side of the facet, so its upper bounds at the corners bound it in between.
+void OutlineWalk::find_stretches() {
+  const auto& numbers = ladder_.filter();
+  stretches_.resize(contenders_.size());
+  for (std::uint32_t i = 0; i < contenders_.size(); ++i) {
+    if (!contenders_[i].has_cone) continue;
+    for (std::size_t end = 0; end < 2; ++end) {
+      std::array<double, 3> most;
+      for (std::size_t k = 0; k < 3; ++k) most[k] = cone_side(numbers, contenders_[i], end, numbers.side[k].origin).upper();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double from = most[k], to = most[(k + 1) % 3];
+        Stretch& stretch = stretches_[i][k];
+        if (from < 0 && to < 0) stretch = {2, -1};
+        // Within a few roundings of the zero: the widening covers them (all terms have one sign).
+        if (from < 0 && to >= 0) stretch.low = std::max(stretch.low, from / (from - to) * (1 - 0x1p-48));
+        if (from >= 0 && to < 0) stretch.high = std::min(stretch.high, from / (from - to) * (1 + 0x1p-48));
+      }
+    }
+  }
+}
+
 std::vector<Occurrence> OutlineWalk::walk() {
+  find_stretches();
   std::array<std::vector<std::uint32_t>, 3> at_corner;
   for (std::size_t c = 0; c < 3; ++c) {
     at_corner[c] = corners_.sequence(c);
@@ -72,7 +94,7 @@ bool OutlineWalk::walk_side(std::size_t side, std::uint32_t last) {
     result_.outline.push_back({static_cast<std::uint8_t>(side), contenders_[current].site, from_node, to_node});
     if (ends) {
       if (current == last) return true;
-      ladder_.fail(Predicate::edge_tie, describe(side, {current, last}, "the walk ends in another wave than the corner's"));
+      ladder_.fail(Predicate::edge_tie, describe(side, {current, last, FacetTessellation::kNoSite, 0, std::nullopt}, "the walk ends in another wave than the corner's"));
       return false;
     }
     from_node = to_node;
@@ -87,20 +109,26 @@ bool OutlineWalk::walk_side(std::size_t side, std::uint32_t last) {
 std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::size_t side, std::uint32_t from,
                                                                         const std::optional<Event>& previous) {
   std::vector<Event> first;
+  const double low = previous && previous->filtered ? previous->filtered->t.lower() : 0;
+  double high = 1;
   for (std::uint32_t to = 0; to < contenders_.size(); ++to) {
-    if (to == from) continue;
-    const std::optional<Event> event = candidate(side, from, to);
+    const Stretch& stretch = stretches_[to][side];
+    if (to == from || stretch.high < low || stretch.low > high) continue;
+    std::optional<Event> event = candidate(side, from, to);
     if (!event) {
       if (ladder_.failed()) return std::nullopt;
       continue;
     }
+    event->filtered = parameter(ladder_.filter(), side, *event);
     const std::optional<bool> real = happens(side, *event, previous);
     if (!real) return std::nullopt;
     if (!*real) continue;
     const MaybeSign order = first.empty() ? Sign::negative : compare(side, *event, first[0]);
     if (!order) return std::nullopt;
     if (*order == Sign::negative) first.clear();
-    if (*order != Sign::positive) first.push_back(*event);
+    if (*order == Sign::positive) continue;
+    first.push_back(*event);
+    if (first.size() == 1 && event->filtered) high = std::min(1.0, event->filtered->t.upper());
   }
   return first;
 }
@@ -110,7 +138,7 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   const int leaves = contenders_.tangent_end(from, to), arrives = contenders_.tangent_end(to, from);
   if (leaves == Contenders::kNotTangent && arrives == Contenders::kNotTangent) {
     if (contenders_.eclipses(from, to) || contenders_.eclipses(to, from)) return std::nullopt;
-    const Event event{from, to};
+    const Event event{from, to, FacetTessellation::kNoSite, 0, std::nullopt};
     if (tie_is_at_corner(side, event)) return std::nullopt;
     return event;
   }
@@ -123,7 +151,7 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   if (last_ray != relay_takes_over) return std::nullopt;
   const std::uint8_t corner = contenders_[relay].corner;
   if (corner == side || corner == (side + 1) % 3) return std::nullopt;  // the ray meets this side in its corner only
-  return Event{from, to, contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end)};
+  return Event{from, to, contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end), std::nullopt};
 }
 
 /// Two waves that tie at an end of the side by identity: whether the place where `to` overtakes `from` is that end.
@@ -141,6 +169,9 @@ bool OutlineWalk::tie_is_at_corner(std::size_t side, const Event& event) {
 
 template <class NT>
 predicates::SideTie<NT> OutlineWalk::parameter(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event) const {
+  if constexpr (std::is_same_v<NT, FacetWaves::F>) {
+    if (event.filtered) return *event.filtered;
+  }
   if (event.ray != FacetTessellation::kNoSite) {
     const auto& window = *numbers.sites[event.ray];
     return {Existence::proved, predicates::ray_meeting(numbers.side[side], window.image, window.cone[event.ray_end])};

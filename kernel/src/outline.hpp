@@ -31,6 +31,11 @@ class OutlineWalk {
     std::uint32_t from, to;
     std::uint32_t ray = FacetTessellation::kNoSite;  ///< site whose boundary ray crosses the side there, if they are tangent
     std::uint8_t ray_end = 0;
+    std::optional<predicates::SideTie<FacetWaves::F>> filtered;  ///< its parameter in the filter's numbers, once asked for
+  };
+  /// Where a contender may be seen along a side: certainly nowhere else.
+  struct Stretch {
+    double low = 0, high = 1;
   };
   enum class Answer { no, yes, degenerate };
 
@@ -38,6 +43,7 @@ class OutlineWalk {
   bool walk_side(std::size_t side, std::uint32_t last);
   bool pass_event(std::size_t side, const std::vector<Event>& tied);
   std::optional<std::vector<Event>> next_events(std::size_t side, std::uint32_t from, const std::optional<Event>& previous);
+  void find_stretches();
   std::optional<Event> candidate(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
   std::optional<bool> happens(std::size_t side, const Event& event, const std::optional<Event>& previous);
@@ -58,6 +64,7 @@ class OutlineWalk {
   FacetLadder& ladder_;
   CornerOrder corners_;
   FacetTessellation& result_;
+  std::vector<std::array<Stretch, 3>> stretches_;  // per contender and side
   std::vector<Occurrence> list_;
 };
 
