@@ -10,6 +10,7 @@
 #include "gvd/kernel/solver.hpp"
 #include "gvd/kernel/tessellation.hpp"
 #include "gvd/kernel/vertex_kind.hpp"
+#include "refined_point.hpp"
 
 namespace gvd::kernel {
 
@@ -21,6 +22,7 @@ class Solution::Impl {
   const Mesh& input;
   Mesh refined;
   RefinedSources where;
+  FaceParts parts;  ///< of the refined mesh
   std::unique_ptr<Frames> frames;
   std::vector<VertexKind> kinds;
   std::vector<SourceVertex> source_vertices;

@@ -83,6 +83,7 @@ class Solver {
 
   bool refine_mesh() {
     s_.refined = refine(s_.input, sources_, s_.where);
+    s_.parts = FaceParts(s_.input, s_.refined);
     s_.frames = std::make_unique<Frames>(s_.refined);
     s_.kinds = classify_vertices(s_.refined, s_.decisions);
     if (s_.frames->has_underflow())

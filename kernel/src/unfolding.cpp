@@ -4,6 +4,7 @@
 
 #include "gvd/kernel/error.hpp"
 #include "gvd/robust/rational.hpp"
+#include "rational_frame.hpp"
 
 namespace gvd::kernel {
 
@@ -51,12 +52,6 @@ Unfolding<Mpfr> unfold_mpfr(const Frames& frames, const Strip& strip, int bits) 
   return unfold_mpfr(frames, strip, bits, cache);
 }
 
-namespace {
-
-/// A frame over sqrt(radicand): y stands for y sqrt(radicand).
-struct RationalFrame {
-  mpq_class u, v, y;
-};
 RationalFrame rational_frame(const Frames& frames, HalfedgeId h, const mpq_class& radicand) {
   const ExactFace face = frames.exact(Mesh::face(h));
   const std::size_t k = h % 3;
@@ -71,8 +66,6 @@ QuadraticPoint turn(const QuadraticPoint& z, const RationalFrame& side, bool lef
   const mpq_class x = 1 - z.x;
   return {1 - (x * side.u + z.y * side.y * n), z.y * side.u - x * side.y};
 }
-
-}  // namespace
 
 QuadraticPoint exact_apex(const Frames& frames, HalfedgeId h, const mpq_class& radicand) {
   const RationalFrame f = rational_frame(frames, h, radicand);

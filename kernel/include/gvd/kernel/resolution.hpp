@@ -61,6 +61,9 @@ class Resolution {
   /// Empty if the paths cross faces of several square classes, or are too involved.
   std::optional<robust::RootSum> exact_distance(VertexId v) const;
 
+  /// A half-edge along the edge between two vertices, in either direction; kNone if no edge joins them.
+  HalfedgeId edge_between(VertexId a, VertexId b) const;
+
   const Frames& frames() const noexcept { return frames_; }
   const DistanceField& field() const noexcept { return field_; }
   const std::vector<SourceVertex>& sources() const noexcept { return sources_; }
@@ -73,7 +76,6 @@ class Resolution {
   robust::Ball<robust::Mpfr> length(const Candidate& c, VertexId v, int bits) const;
   std::optional<robust::RootSum> exact_length(const Candidate& c, VertexId v, int depth) const;
   std::optional<robust::RootSum> exact_distance(VertexId v, int depth) const;
-  HalfedgeId edge_between(VertexId a, VertexId b) const;
 
   const Frames& frames_;
   DistanceField& field_;
