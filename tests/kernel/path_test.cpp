@@ -63,7 +63,9 @@ std::size_t check_path(const Mesh& mesh, const std::vector<Source>& sources, con
     EXPECT_GT(step, 0);
     length += step;
   }
-  if (path.front().vertex == kNone && path.front().edge[0] == kNone && path.size() > 1) EXPECT_EQ(path.front().face, at.face);
+  if (path.front().vertex == kNone && path.front().edge[0] == kNone && path.size() > 1) {
+    EXPECT_EQ(path.front().face, at.face);
+  }
   EXPECT_NEAR(length, answer.distance, 1e-14 * static_cast<double>(path.size()) * (1 + answer.distance));
   return path.size();
 }
