@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -52,12 +53,14 @@ class FacetLadder {
   /// Calls visit(numbers, stage) for the stages beyond the filter, until it gives an answer.
   template <class Visit>
   auto for_each_stage(const Visit& visit) -> decltype(visit(std::declval<FacetNumbers<F>&>(), robust::Stage::filter)) {
-    if (double_double_.frame == nullptr) load_numbers(waves_, 0, double_double_);
-    if (auto answer = visit(double_double_, robust::Stage::double_double)) return answer;
+    if (!beyond_) beyond_ = std::make_unique<BeyondFilter>();
+    BeyondFilter& numbers = *beyond_;
+    if (numbers.double_double.frame == nullptr) load_numbers(waves_, 0, numbers.double_double);
+    if (auto answer = visit(numbers.double_double, robust::Stage::double_double)) return answer;
     for (const int bits : {128, 256, 512, 1024}) {
-      if (bits != loaded_bits_) load_numbers(waves_, bits, mpfr_);
-      loaded_bits_ = bits;
-      if (auto answer = visit(mpfr_, robust::Stage::mpfr)) return answer;
+      if (bits != numbers.bits) load_numbers(waves_, bits, numbers.mpfr);
+      numbers.bits = bits;
+      if (auto answer = visit(numbers.mpfr, robust::Stage::mpfr)) return answer;
       if (bits == 256) {  // a tie more often than not: where the proof is cheap, ask for it before the longest numbers
         if (auto exact = visit_exact(visit)) return exact;
       }
@@ -74,22 +77,27 @@ class FacetLadder {
  private:
   template <class Visit>
   auto visit_exact(const Visit& visit) -> decltype(visit(std::declval<FacetNumbers<F>&>(), robust::Stage::filter)) {
-    if (!exact_loaded_) load_numbers(waves_, 0, exact_);
-    exact_loaded_ = true;
-    if (exact_.frame == nullptr) return {};
-    for (const auto* site : exact_.sites)
+    BeyondFilter& numbers = *beyond_;
+    if (!numbers.exact_loaded) load_numbers(waves_, 0, numbers.exact);
+    numbers.exact_loaded = true;
+    if (numbers.exact.frame == nullptr) return {};
+    for (const auto* site : numbers.exact.sites)
       if (site == nullptr) return {};
-    return visit(exact_, robust::Stage::algebra);
+    return visit(numbers.exact, robust::Stage::algebra);
   }
 
   FacetWaves& waves_;
   predicates::Decisions& decisions_;
   FacetNumbers<F> filter_;
-  FacetNumbers<DD> double_double_;
-  FacetNumbers<M> mpfr_;
-  int loaded_bits_ = 0;
-  FacetNumbers<Exact> exact_;
-  bool exact_loaded_ = false;
+  /// Hardly any facet needs them, and even empty ones cost allocations.
+  struct BeyondFilter {
+    FacetNumbers<DD> double_double;
+    FacetNumbers<M> mpfr;
+    int bits = 0;
+    FacetNumbers<Exact> exact;
+    bool exact_loaded = false;
+  };
+  std::unique_ptr<BeyondFilter> beyond_;
   bool failed_ = false;
 };
 

@@ -19,7 +19,6 @@ void BisectorVertices::set_rivals(const std::vector<std::uint32_t>& rivals) {
   rank_.assign(contenders_.size(), 0);
   for (std::uint32_t r = 0; r < rivals_.size(); ++r) rank_[rivals_[r]] = r;
   remembered_.assign(rivals_.size() * rivals_.size() * rivals_.size(), 0);
-  found_.reserve(remembered_.size() / 3);  // pointers to them are handed out
 }
 
 BisectorVertices::Found* BisectorVertices::find(std::uint32_t i, std::uint32_t j, std::uint32_t k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -63,7 +64,7 @@ class BisectorVertices {
   std::vector<std::uint32_t> rivals_;
   std::vector<std::uint32_t> rank_;       ///< of a contender among the rivals
   std::vector<std::int32_t> remembered_;  ///< per ordered triple of rivals: 0 unknown, else 1 + index in found_
-  std::vector<Found> found_;
+  std::deque<Found> found_;              ///< pointers to them are handed out
   std::vector<std::uint32_t> pending_, ties_;
 };
 
