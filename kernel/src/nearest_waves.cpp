@@ -68,19 +68,21 @@ class NearestSearch {
   bool conclude(const std::vector<std::uint32_t>& sites, const std::vector<NT>& distance, const std::vector<std::size_t>& kept) {
     result_.sites.clear();
     for (const std::size_t i : kept) result_.sites.push_back(sites[i]);
-    std::optional<double> value = rounded(distance[kept.front()]);
+    const std::optional<double> value = rounded(distance[kept.front()]);
+    bool rounds_alike = value.has_value();
     Enclosed all{0, distance[kept.front()].lower(), distance[kept.front()].upper()};
     for (const std::size_t i : kept) {
       all.low = std::min(all.low, distance[i].lower());
       all.high = std::max(all.high, distance[i].upper());
-      if (rounded(distance[i]) != value) value.reset();
+      const std::optional<double> other = rounded(distance[i]);
+      rounds_alike = rounds_alike && other && *other == *value;
     }
-    all.value = value ? *value : robust::Midpoint<typename NT::Mid>::nearest(distance[kept.front()].mid());
+    all.value = rounds_alike ? *value : robust::Midpoint<typename NT::Mid>::nearest(distance[kept.front()].mid());
     result_.distance = all;
     result_.is_one_path = kept.size() == 1;
     const LabelSetId labels = waves_.sites[result_.sites.front()].labels;
     const bool same = std::all_of(result_.sites.begin(), result_.sites.end(), [&](auto i) { return waves_.sites[i].labels == labels; });
-    result_.is_decided = value && same;
+    result_.is_decided = rounds_alike && same;
     return result_.is_decided && (result_.is_one_path || !to_one_path_);
   }
 
