@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/robust/rational.hpp"
 
@@ -126,16 +127,16 @@ bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrival& arrival) co
   const Disc<double>&image = arrival.at.image, &cone0 = arrival.at.cone0, &cone1 = arrival.at.cone1;
   const predicates::Landing l0 = predicates::land(image.mid, cone0.mid, std::max(image.radius, cone0.radius));
   const predicates::Landing l1 = predicates::land(image.mid, cone1.mid, std::max(image.radius, cone1.radius));
-  constexpr double kUp = 1 + 0x1p-20;  // covers the rounding to float
   arrival.image = image.mid;
   arrival.begin = std::max(0.0, l0.at - l0.margin);
   arrival.end = std::min(1.0, l1.at + l1.margin);
-  arrival.begin_slack = static_cast<float>(2 * l0.margin * kUp);
-  arrival.end_slack = static_cast<float>(2 * l1.margin * kUp);
+  arrival.begin_slack = predicates::rounded_up(2 * l0.margin);
+  arrival.end_slack = predicates::rounded_up(2 * l1.margin);
   arrival.begin_trimmed = arrival.end_trimmed = false;
+  arrival.cone0_at_origin = arrival.cone1_at_target = false;  // plays no part here
   arrival.weight = weight.mid();
-  arrival.weight_error = static_cast<float>(weight.rad() * kUp + 0x1p-140);
-  arrival.image_error = static_cast<float>(image.radius * frame.length * kUp + 0x1p-140);
+  arrival.weight_error = predicates::rounded_up(weight.rad());
+  arrival.image_error = predicates::rounded_up(image.radius * frame.length);
   if (arrival.begin > arrival.end) return false;
   const double y2 = image.mid.y * image.mid.y;
   const auto low = [&](double x) {

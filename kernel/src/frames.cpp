@@ -36,8 +36,8 @@ std::array<predicates::EdgeFrame<T>, 3> face_frames(const std::array<T, 3>& ab, 
            {dot_c / ll_ca, dot_a / ll_ca, area2 / ll_ca, sqrt(ll_ca)}}};
 }
 
-/// Below this the squares and products of a frame may lose bits to underflow.
-constexpr double kLeastSide = 0x1p-240;
+/// Sides below this lose too many bits to underflow (docs/error-bounds.md#frames). All are below 2 sqrt(3), unless differences overflowed.
+constexpr double kLeastSide = 0x1p-200, kMostSide = 4;
 
 mpq_class scaled(const mpq_class& x, int k) { return x * robust::power_of_two(k); }
 
@@ -92,7 +92,7 @@ Frames::Frames(const Mesh& mesh) : mesh_(mesh) {
     const auto frames = face_frames(sides[0], sides[1], sides[2]);
     for (std::size_t k = 0; k < 3; ++k) {
       double_[3 * f + k] = frames[k];
-      if (!(frames[k].length > kLeastSide && frames[k].y > 0x1p-240)) underflow_ = true;
+      if (!(frames[k].length > kLeastSide && frames[k].length < kMostSide)) underflow_ = true;
     }
   }
 }

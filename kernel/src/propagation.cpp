@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gvd/kernel/unfolding.hpp"
+#include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/predicates/orientation.hpp"
 #include "shadow.hpp"
@@ -14,15 +15,14 @@ namespace gvd::kernel {
 
 using predicates::Complex;
 using predicates::EdgeFrame;
+using predicates::kDistanceError;
+using predicates::kFrameError;
+using predicates::kOrientationError;
+using predicates::kStepError;
+using predicates::kUnit;
+using predicates::rounded_up;
 
 namespace {
-
-constexpr double kUnit = 0x1p-53;
-// docs/error-bounds.md#propagation derives each of these.
-constexpr double kFrameError = 12 * kUnit;      // relative error of a frame's apex, as a disc
-constexpr double kStepError = 20 * kUnit;       // error of one crossing over the largest distance to a corner of the face
-constexpr double kDistanceError = 16 * kUnit;   // relative error of weight + length * |z|
-constexpr double kOrientationError = 6 * kUnit;  // rounding of a 2x2 determinant over the product of the 1-norms
 
 double norm1(double x, double y) { return std::fabs(x) + std::fabs(y); }
 
@@ -79,7 +79,7 @@ void Propagation::settle(VertexId v) {
       emit_shadow(v, arrival);
     }
   }
-  const double d = field_.distance[v], e = field_.error[v];
+  const double d = field_.distance[v], e = emitted_error_[v];  // D may still improve within that
   mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
     const double along = d + frames_[h].length;
     relax(mesh_.target(h), {kNone, v, kNone, along, e + kDistanceError * along, {0, 0}});
@@ -139,7 +139,7 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
     } else if (kinds_[v] == VertexKind::relay) {
       for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next) emit_shadow(v, Candidate(list[c]));
     }
-    const double d = field_.distance[v], e = field_.error[v];
+    const double d = field_.distance[v], e = emitted_error_[v];
     mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
       const double along = d + frames_[h].length;
       relax(mesh_.target(h), {kNone, v, kNone, along, e + kDistanceError * along, {0, 0}});
@@ -149,7 +149,7 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
         relax(mesh_.origin(last), {kNone, v, kNone, back, e + kDistanceError * back, {0, 0}});
       }
     });
-  } else if (!is_source && kinds_[v] == VertexKind::relay && candidate.window != kNone) {
+  } else if (!is_source && kinds_[v] == VertexKind::relay) {
     emit_shadow(v, candidate);
   }
 }
@@ -173,10 +173,11 @@ void Propagation::emit(VertexId v, HalfedgeId outgoing) {
   wave.begin = 0;
   wave.end = 1;
   wave.weight = emitted_weight_[v];
-  wave.weight_error = static_cast<float>(emitted_error_[v] * (1 + 0x1p-20));
-  wave.image_error = static_cast<float>(kStepError * (norm1(wave.image.x, wave.image.y) + 1) * frame.length);
+  wave.weight_error = rounded_up(emitted_error_[v]);
+  wave.image_error = rounded_up(2 * kStepError * (norm1(wave.image.x, wave.image.y) + 1) * frame.length);
   wave.begin_slack = wave.end_slack = 0;
   wave.begin_trimmed = wave.end_trimmed = false;
+  wave.cone0_at_origin = wave.cone1_at_target = true;
   wave.window = new_window(kNone, target, v, false);
   emitted_[outgoing] = wave.window;
   append(target, w);
@@ -354,7 +355,7 @@ void Propagation::cross_face(HalfedgeId h) {
     crossings_.push_back({w, where, d});
     if (where == Sight::beyond_0 || where == Sight::beyond_1) continue;
     const double error = (wave.image_error + wave.weight_error) + kDistanceError * d;
-    if (d + error < sight.upper) {
+    if (d + error < sight.upper && dy < 0) {
       const double t = wave.image.y / dy;  // image -> apex crosses the side at this fraction: dy < 0
       const double x = wave.image.x - dx * t;
       const double disc = wave.image_error / frame.length + kFrameError * norm1(frame.u, frame.y);
@@ -407,48 +408,54 @@ void Propagation::make_child(std::uint32_t parent, Sight sight, HalfedgeId h, Ha
   child.end = 1;
   child.begin_slack = child.end_slack = 0;
   child.begin_trimmed = child.end_trimmed = false;
-  if (!kLeft && at_apex) {
-    child.cone0 = {0, 0};
-  } else if (kLeft && wave.cone0.x == 0 && wave.cone0.y == 0) {
+  child.cone0_at_origin = kLeft ? wave.cone0_at_origin : at_apex;
+  child.cone1_at_target = kLeft ? at_apex : wave.cone1_at_target;
+  if (child.cone0_at_origin) {
     child.cone0 = {0, 0};
   } else {
     child.cone0 = cross(wave.cone0);
     if (!wave.begin_trimmed) {
       const predicates::Landing l = predicates::land(child.image, child.cone0, disc);
       child.begin = std::max(0.0, l.at - l.margin);
-      child.begin_slack = static_cast<float>(2 * l.margin * (1 + 0x1p-20));
+      child.begin_slack = rounded_up(2 * l.margin);
     }
   }
-  if (kLeft && at_apex) {
-    child.cone1 = {1, 0};
-  } else if (!kLeft && wave.cone1.x == 1 && wave.cone1.y == 0) {
+  if (child.cone1_at_target) {
     child.cone1 = {1, 0};
   } else {
     child.cone1 = cross(wave.cone1);
     if (!wave.end_trimmed) {
       const predicates::Landing l = predicates::land(child.image, child.cone1, disc);
       child.end = std::min(1.0, l.at + l.margin);
-      child.end_slack = static_cast<float>(2 * l.margin * (1 + 0x1p-20));
+      child.end_slack = rounded_up(2 * l.margin);
     }
   }
+  // Of the ray through a point of the parent's side; no point of the line beyond it is seen.
+  const auto landing_of = [&](double x) {
+    return x >= 0 && x <= 1 ? predicates::land(child.image, cross({x, 0}), disc) : predicates::kNoLanding;
+  };
   if (wave.begin_trimmed) {
-    const predicates::Landing l = predicates::land(child.image, cross({wave.begin, 0}), disc);
-    const double begin = l.at - l.margin;
+    const predicates::Landing l = landing_of(wave.begin);
+    const double begin = l.at - l.margin, seen_from = wave.begin + wave.begin_slack;
     if (begin > child.begin) {
-      const predicates::Landing seen = wave.begin_slack == 0 ? l : predicates::land(child.image, cross({wave.begin + wave.begin_slack, 0}), disc);
       child.begin = begin;
-      child.begin_slack = static_cast<float>((seen.at + seen.margin - begin) * (1 + 0x1p-20));
       child.begin_trimmed = true;
+    }
+    if (child.begin_trimmed || !child.cone0_at_origin) {
+      const predicates::Landing seen = wave.begin_slack == 0 ? l : landing_of(seen_from);
+      child.begin_slack = rounded_up(std::max(0.0, seen.at + seen.margin - child.begin));
     }
   }
   if (wave.end_trimmed) {
-    const predicates::Landing l = predicates::land(child.image, cross({wave.end, 0}), disc);
-    const double end = l.at + l.margin;
+    const predicates::Landing l = landing_of(wave.end);
+    const double end = l.at + l.margin, seen_to = wave.end - wave.end_slack;
     if (end < child.end) {
-      const predicates::Landing seen = wave.end_slack == 0 ? l : predicates::land(child.image, cross({wave.end - wave.end_slack, 0}), disc);
       child.end = end;
-      child.end_slack = static_cast<float>((end - seen.at + seen.margin) * (1 + 0x1p-20));
       child.end_trimmed = true;
+    }
+    if (child.end_trimmed || !child.cone1_at_target) {
+      const predicates::Landing seen = wave.end_slack == 0 ? l : landing_of(seen_to);
+      child.end_slack = rounded_up(std::max(0.0, child.end - seen.at + seen.margin));
     }
   }
   if (child.begin > child.end) {
@@ -472,7 +479,7 @@ void Propagation::make_child(std::uint32_t parent, Sight sight, HalfedgeId h, Ha
   }
   child.weight = wave.weight;
   child.weight_error = wave.weight_error;
-  child.image_error = static_cast<float>(image_error * (1 + 0x1p-20));
+  child.image_error = rounded_up(image_error);
   child.window = new_window(wave.window, target, field_.windows[wave.window].root, at_apex);
   const std::uint32_t w = new_wave();
   waves_[w] = child;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "gvd/predicates/filter_error.hpp"
+
 namespace gvd::kernel {
 
 using Image = predicates::Complex<double>;
@@ -11,26 +13,28 @@ using Frame = predicates::EdgeFrame<double>;
 
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-
 double norm1(double x, double y) { return std::fabs(x) + std::fabs(y); }
+Image normalised(Image z) {
+  const double size = norm1(z.x, z.y);
+  return {z.x / size, z.y / size};
+}
 
 /// Turns by less than half a turn a step; says when half a turn may be full.
 class HalfTurn {
  public:
-  explicit HalfTurn(Image start) : at_(start) {}
+  /// `error`: of the start, relative to its size.
+  HalfTurn(Image start, double error) : at_(normalised(start)), error_(predicates::kTurnError + error) {}
   /// Multiplies by the corner's direction; true if the sum of the angles may have reached pi.
   bool reached_by(double x, double y) {
     const Image p{at_.x * x - at_.y * y, at_.x * y + at_.y * x};
-    error_ = error_ + 24 * kUnit;
-    const double size = norm1(p.x, p.y);
-    at_ = {p.x / size, p.y / size};
-    return at_.y <= error_;
+    error_ += predicates::kTurnError;
+    at_ = normalised(p);
+    return !(at_.y > error_);  // also if nothing is known
   }
 
  private:
   Image at_;
-  double error_ = 24 * kUnit;
+  double error_;
 };
 
 }  // namespace
@@ -45,6 +49,7 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
   const bool closed = !mesh.is_boundary(v);
   std::size_t ccw_face, cw_steps_from;  // first whole face counter-clockwise; number of faces before which we go clockwise
   Image ccw_start, cw_start;            // the angle already turned at the arrival's face
+  double start_error = 0;
   if (over != kNone) {
     const std::size_t k = static_cast<std::size_t>(std::find(fan.begin(), fan.end(), Mesh::prev(over)) - fan.begin());
     const Frame& f = frames[over];
@@ -52,6 +57,7 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
     const Image to_a{-f.u, -f.y}, to_b{f.v, -f.y};
     ccw_start = {to_b.x * back.x + to_b.y * back.y, to_b.y * back.x - to_b.x * back.y};
     cw_start = {back.x * to_a.x + back.y * to_a.y, back.y * to_a.x - back.x * to_a.y};
+    start_error = 1.5 * arrival.error / (f.length * norm1(back.x, back.y));
     ccw_face = k + 1;
     cw_steps_from = k;
   } else {
@@ -61,12 +67,8 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
     ccw_face = k;  // k == n: along the last edge of a boundary fan
     cw_steps_from = k;
   }
-  const auto normalised = [](Image z) {
-    const double size = norm1(z.x, z.y);
-    return Image{z.x / size, z.y / size};
-  };
   // Counter-clockwise: the first face in which half a turn may be full.
-  HalfTurn ccw(normalised(ccw_start)), cw(normalised(cw_start));
+  HalfTurn ccw(ccw_start, start_error), cw(cw_start, start_error);
   std::optional<std::size_t> first, last;
   for (std::size_t step = 0; step < n; ++step) {
     const std::size_t i = ccw_face + step;

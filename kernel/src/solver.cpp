@@ -88,7 +88,12 @@ class Solver {
     s_.kinds = classify_vertices(s_.refined, s_.decisions);
     if (s_.frames->has_underflow())
       predicates::undecided(s_.decisions, predicates::Predicate::window_orientation,
-                            "a face is smaller than 2^-240 of the longest edge: beyond the range of the filters");
+                            "an edge is shorter than 2^-200 of the longest, or longer than the greatest double: beyond the range of the error bounds");
+    for (SourceId i = 0; i < sources_.size(); ++i) {
+      const double weight = s_.where.weight[i];
+      if (std::ldexp(std::ldexp(weight, -s_.frames->scale()), s_.frames->scale()) != weight)
+        throw InputError("source " + std::to_string(i) + ": its weight is out of all proportion to the mesh");
+    }
     // Sources at one vertex: those of least weight start the wave.
     std::vector<SourceId> order(sources_.size());
     std::iota(order.begin(), order.end(), 0u);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gvd/predicates/filter_error.hpp"
+
 namespace gvd::kernel {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kDistanceError = 16 * kUnit;  // docs/error-bounds.md#propagation
+using predicates::kDistanceError;
+using predicates::kUnit;
 
 /// Distance and slope along the side of a wave at x.
 struct Profile {
@@ -84,7 +86,7 @@ Trim trim(WindowInterval& first, WindowInterval& second, double length) {
     second.begin_slack = 0;
     second.begin_trimmed = true;
   }
-  if (right < high || right < first.end) {
+  if (right < first.end && first.end <= second.end) {  // what lies beyond the second is not its to cut off
     first.end = right;
     first.end_slack = 0;
     first.end_trimmed = true;

@@ -15,13 +15,14 @@ struct WindowInterval {
   float image_error;             ///< radius of a disc about the image (and the cone's vertices), as a length
   float begin_slack, end_slack;  ///< [begin + begin_slack, end - end_slack] is certainly seen
   bool begin_trimmed, end_trimmed;  ///< beyond it another window is certainly shorter
+  bool cone0_at_origin, cone1_at_target;  ///< the cone is bounded by an end of the side itself
 };
 
 enum class Trim : std::uint8_t { none, drop_first, drop_second };
 
 /// Cuts off what is certainly longer where two windows of one half-edge of that length overlap, or tells that one is longer everywhere.
 /// Only the ends of the intervals of doubles move; the cones stay, so nothing that is decided exactly depends on it.
-/// Pre: first.begin <= second.begin. Error bounds: docs/error-bounds.md#trimming.
+/// Made for first.begin <= second.begin; sound without. Error bounds: docs/error-bounds.md#trimming.
 Trim trim(WindowInterval& first, WindowInterval& second, double length);
 
 }  // namespace gvd::kernel

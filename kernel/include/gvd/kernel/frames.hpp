@@ -30,9 +30,10 @@ class Frames {
   explicit Frames(const Mesh& mesh);
 
   int scale() const noexcept { return scale_; }
+  /// Errors of all number types: docs/error-bounds.md#frames.
   const std::vector<predicates::EdgeFrame<double>>& in_double() const noexcept { return double_; }
   const predicates::EdgeFrame<double>& operator()(HalfedgeId h) const noexcept { return double_[h]; }
-  /// Relative error of the apex as a disc, and of the length: docs/error-bounds.md#frames. Cached.
+  /// Cached.
   const predicates::EdgeFrame<robust::DoubleDouble>& in_double_double(HalfedgeId h) const;
   /// Cost: some hundred MPFR operations; not cached.
   std::array<predicates::EdgeFrame<robust::Mpfr>, 3> in_mpfr(FaceId f, int bits) const;
@@ -40,7 +41,7 @@ class Frames {
   /// The square class of the face's radicand: equal numbers if and only if the radicands differ by a rational square. Cached.
   std::uint32_t square_class(FaceId f) const;
   const Mesh& mesh() const noexcept { return mesh_; }
-  /// Faces so small against the mesh that doubles underflow; their decisions cannot be trusted to the filter.
+  /// Whether a side is below 2^-200 of the longest, or too long for doubles: then the error bounds of the frames do not hold.
   bool has_underflow() const noexcept { return underflow_; }
 
  private:

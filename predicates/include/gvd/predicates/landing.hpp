@@ -11,14 +11,17 @@ struct Landing {
   double at, margin;
 };
 
-/// `disc`: error radius of both points. If the ray may be parallel to the side, the margin exceeds the side (docs/error-bounds.md#landing).
+/// Nothing is known.
+inline constexpr Landing kNoLanding{0.5, 4};
+
+/// `disc`: error radius of both points, at least 16 u (1 + |image|_1). If the ray may be parallel to the side, the margin exceeds the side.
+/// Rounding included; at least disc / 2 to spare (docs/error-bounds.md#landing).
 inline Landing land(const Complex<double>& image, const Complex<double>& p, double disc) noexcept {
   const double rise = p.y - image.y;
-  const double safe = rise - 4 * disc;
-  if (!(safe > 0)) return {0.5, 2};
+  if (!(rise > 4 * disc)) return kNoLanding;
   const double run = p.x - image.x;
-  const double at = image.x - run * image.y / rise;
-  return {at, 4 * (disc + 0x1p-53 * std::fabs(at)) * (1 + (std::fabs(run) + std::fabs(at - image.x)) / safe)};
+  const double lift = image.y / rise;
+  return {image.x - run * lift, 4 * disc * (1 + std::fabs(lift)) * (1 + std::fabs(run) / rise)};
 }
 
 }  // namespace gvd::predicates

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cmath>
+
+namespace gvd::predicates {
+
+/// The constants of the hand-derived filters in double; docs/error-bounds.md derives each, tests/predicates/frame_bounds_test.cpp repeats it.
+inline constexpr double kUnit = 0x1p-53;
+/// #frames: error of a frame's apex as a disc, relative to its distance from an end of the edge (both ends).
+inline constexpr double kFrameError = 16 * kUnit;
+/// #propagation: error of crossing one face, as a disc, over the sum of the distances to the ends of the edges (see there).
+inline constexpr double kStepError = 20 * kUnit;
+/// #propagation: relative error of weight + length * |image - point|, also where the point is the apex or the third vertex of a face.
+inline constexpr double kDistanceError = 32 * kUnit;
+/// #propagation: rounding of the determinant of two differences, over the product of their 1-norms.
+inline constexpr double kOrientationError = 6 * kUnit;
+/// #propagation: relative error of one turn of a direction by the angle of a face.
+inline constexpr double kTurnError = 24 * kUnit;
+
+/// #floats: a float that exceeds the error by at least 2^-21 of itself, also below the range of float. Pre: error is below 2^127.
+inline float rounded_up(double error) noexcept { return static_cast<float>(error * (1 + 0x1p-20) + 0x1p-120); }
+
+}  // namespace gvd::predicates

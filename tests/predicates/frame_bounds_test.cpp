@@ -1,0 +1,247 @@
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gvd/kernel/frames.hpp"
+#include "gvd/kernel/unfolding.hpp"
+#include "gvd/predicates/filter_error.hpp"
+#include "gvd/predicates/landing.hpp"
+#include "gvd/predicates/strip.hpp"
+#include "support/meshes.hpp"
+
+namespace gvd::test {
+namespace {
+
+using kernel::Frames;
+using kernel::HalfedgeId;
+using kernel::Mesh;
+using predicates::Complex;
+using predicates::Disc;
+using predicates::EdgeFrame;
+using predicates::Strip;
+using robust::DoubleDouble;
+using robust::Mpfr;
+
+constexpr int kTruthBits = 512;
+constexpr double kU = predicates::kUnit;
+
+Mpfr wide(double x) { return Mpfr(x, kTruthBits); }
+Mpfr wide(const DoubleDouble& x) { return Mpfr(x.hi, kTruthBits) + Mpfr(x.lo, kTruthBits); }
+double hypot(const Mpfr& x, const Mpfr& y) { return sqrt(x * x + y * y).to_double(); }
+
+/// Relative errors of single operations, in some unit.
+struct Operations {
+  double side, add, product, quotient, root;
+};
+/// First-order bounds of what is made of them, in the same unit (docs/error-bounds.md#frames).
+struct Derived {
+  double apex, length, turn;
+};
+Derived derive(const Operations& o) {
+  const double dot = 2 * o.side + o.product + 2 * o.add;
+  const double area = 2 * o.side + std::sqrt(2) * (o.product + o.add) + (o.product + 2 * o.add) / 2 + o.root;
+  return {std::hypot(dot, area) + dot + o.quotient, dot / 2 + o.root, std::sqrt(2) * (o.product + o.add)};
+}
+constexpr double kHigherOrders = 1 + 0x1p-40;
+
+// The derivations of docs/error-bounds.md, against the literals.
+TEST(FrameBounds, LiteralsFollowFromTheirDerivations) {
+  const Derived d = derive({1, 1, 1, 1, 1});
+  EXPECT_LE(d.apex * kHigherOrders * kU, predicates::kFrameError);
+  const double left = d.apex + d.turn, right = d.apex + d.turn + 2;  // two subtractions from 1
+  EXPECT_LE(std::max(left, right) * kHigherOrders * kU, predicates::kStepError);
+  // What a step has to spare covers the error of an apex; so does the first one.
+  EXPECT_LE(d.apex * kHigherOrders * kU, predicates::kStepError - kU);
+  EXPECT_LE((d.apex + d.apex) * kHigherOrders * kU, 2 * predicates::kStepError);
+  const double distance = 3 + d.length + 1 + 1;
+  EXPECT_LE((distance + d.apex + 6) * kHigherOrders * kU, predicates::kDistanceError);
+  EXPECT_LE((4 + 1) * kHigherOrders * kU, predicates::kOrientationError);
+  EXPECT_LE((d.apex + d.turn + 1) * kHigherOrders * kU, predicates::kTurnError);
+}
+
+TEST(FrameBounds, OneConstantServesAllNumberTypes) {
+  const auto needed = [](const Operations& o) {
+    const Derived d = derive(o);
+    return std::max(d.apex + d.turn + 2 * o.add, d.length) * kHigherOrders;
+  };
+  EXPECT_EQ(predicates::unit<double>(0), kU);
+  EXPECT_LE(needed({1, 1, 1, 1, 1}), predicates::kUnfoldingStep);
+  const double unit = predicates::unit<DoubleDouble>(0);
+  EXPECT_LE(needed({kU * kU / unit, robust::kDoubleDoubleAddError / unit, robust::kDoubleDoubleProductError / unit,
+                    robust::kDoubleDoubleQuotientError / unit, robust::kDoubleDoubleRootError / unit}),
+            predicates::kUnfoldingStep);
+  EXPECT_LE(needed({0x1p-8, 0x1p-8, 0x1p-8, 0x1p-8, 0x1p-8}), predicates::kUnfoldingStep);  // eight bits more than named
+}
+
+TEST(FrameBounds, FloatsAreRoundedUpWithRoomToSpare) {
+  Random random(1);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = std::ldexp(random.uniform(), -static_cast<int>(random.below(400)));
+    ASSERT_GE(static_cast<double>(predicates::rounded_up(x)) * (1 - 0x1p-21), x);
+  }
+  EXPECT_GE(predicates::rounded_up(0), 0);
+}
+
+/// A point near p: the same, one ulp off, or a little more.
+Point jitter(Point p, Random& random) {
+  for (double& x : p) {
+    const auto kind = random.below(3);
+    if (kind == 1) x = std::nextafter(x, random.below(2) == 0 ? -1e300 : 1e300);
+    if (kind == 2) x += std::ldexp(random.uniform(-1, 1), -static_cast<int>(random.below(60)));
+  }
+  return p;
+}
+
+/// Triangles of every shape: round, slivers, needles, near-collinear, far from the origin, one tiny side.
+Mesh triangle(Random& random) {
+  for (;;) {
+    const auto point = [&] { return Point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+    const double offset = random.below(3) == 0 ? std::ldexp(random.uniform(), static_cast<int>(random.below(30))) : 0;
+    Point a = point(), b = point(), c = point();
+    const double t = random.uniform(-1, 2);
+    switch (random.below(5)) {
+      case 0: break;
+      case 1:  // nearly collinear
+        for (std::size_t k = 0; k < 3; ++k) c[k] = a[k] + t * (b[k] - a[k]);
+        c = jitter(c, random);
+        break;
+      case 2: c = jitter(a, random); break;
+      case 3: {  // one side as small as the bounds allow
+        const double size = std::ldexp(1.0, -static_cast<int>(random.below(198)));
+        a = {0, 0, 0};
+        for (double& x : c) x *= size;
+        break;
+      }
+      default:
+        for (Point* p : {&a, &b, &c}) (*p)[2] *= 1e-9, (*p)[1] *= 1e-9;
+    }
+    for (Point* p : {&a, &b, &c})
+      for (double& x : *p) x += offset;
+    try {
+      return Mesh({{a, b, c}, {{0, 1, 2}}});
+    } catch (const std::exception&) {  // of zero area
+    }
+  }
+}
+
+template <class T>
+void expect_frame_within(const EdgeFrame<T>& computed, const EdgeFrame<Mpfr>& truth, double apex, double length) {
+  const Mpfr y = wide(computed.y) - truth.y;
+  ASSERT_LE(hypot(wide(computed.u) - truth.u, y), apex * hypot(truth.u, truth.y));
+  ASSERT_LE(hypot(wide(computed.v) - truth.v, y), apex * hypot(truth.v, truth.y));
+  ASSERT_LE(abs(wide(computed.length) - truth.length).to_double(), length * truth.length.to_double());
+}
+
+TEST(FrameBounds, FramesOfAllShapesKeepTheirBounds) {
+  Random random(2);
+  int with_tiny_side = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Mesh mesh = triangle(random);
+    const Frames frames(mesh);
+    if (frames.has_underflow()) continue;
+    const auto truth = frames.in_mpfr(0, kTruthBits);
+    for (HalfedgeId h = 0; h < 3; ++h) {
+      with_tiny_side += truth[h].length.to_double() < 0x1p-100;
+      expect_frame_within(frames(h), truth[h], predicates::kFrameError, 4 * kU);
+      const double unit = predicates::unit<DoubleDouble>(0);
+      expect_frame_within(frames.in_double_double(h), truth[h], 4 * unit, unit);
+      if (HasFatalFailure()) FAIL() << "triangle " << i << " half-edge " << h;
+    }
+  }
+  EXPECT_GT(with_tiny_side, 30);
+}
+
+/// A strip that wanders over the mesh; its cone is reset at random.
+Strip random_strip(const Mesh& mesh, std::size_t length, Random& random) {
+  Strip strip;
+  HalfedgeId at;
+  do {
+    strip.opposite = random.below(mesh.halfedge_count());
+    at = mesh.twin(strip.opposite);
+  } while (at == kernel::kNone);
+  while (strip.steps.size() < length) {
+    const bool left = random.below(2) == 0;
+    const HalfedgeId side = left ? Mesh::prev(at) : Mesh::next(at);
+    if (mesh.twin(side) == kernel::kNone) break;
+    strip.steps.push_back({side, left, random.below(8) == 0});
+    at = mesh.twin(side);
+  }
+  return strip;
+}
+
+template <class T>
+void expect_inside(const Disc<T>& disc, const Disc<Mpfr>& truth) {
+  const double off = hypot(wide(disc.mid.x) - truth.mid.x, wide(disc.mid.y) - truth.mid.y);
+  ASSERT_LE(off, disc.radius + truth.radius);
+}
+
+void expect_strips_inside(const MeshArrays& arrays, std::uint64_t seed) {
+  const Mesh mesh(arrays);
+  const Frames frames(mesh);
+  Random random(seed);
+  for (int i = 0; i < 60; ++i) {
+    const Strip strip = random_strip(mesh, 1 + random.below(100), random);
+    const auto truth = kernel::unfold_mpfr(frames, strip, 2048);  // wandering strips amplify: the truth needs its bits
+    const auto in_double = kernel::unfold_double(frames, strip);
+    const auto in_double_double = kernel::unfold_double_double(frames, strip);
+    for (const auto point : {0, 1, 2}) {
+      const auto pick = [&](const auto& at) { return point == 0 ? at.image : point == 1 ? at.cone0 : at.cone1; };
+      expect_inside(pick(in_double), pick(truth));
+      expect_inside(pick(in_double_double), pick(truth));
+      if (::testing::Test::HasFatalFailure()) FAIL() << "strip " << i << " of " << strip.steps.size() << " faces, point " << point;
+    }
+  }
+}
+
+MeshArrays changed(MeshArrays mesh, const std::function<void(Point&)>& change) {
+  for (Point& p : mesh.points) change(p);
+  return mesh;
+}
+
+TEST(UnfoldingBounds, DiscsContainTheTruth) {
+  const MeshArrays terrain = fractal_terrain(4, 3, 0.6, 5);
+  Random ulp(6);
+  expect_strips_inside(terrain, 1);
+  expect_strips_inside(changed(terrain, [](Point& p) { p[1] *= 1e-9, p[2] *= 1e-9; }), 2);                    // slivers
+  expect_strips_inside(changed(terrain, [](Point& p) { p[0] += 1e7, p[1] += 1e7; }), 3);                      // far away
+  expect_strips_inside(changed(flat_grid(12, 12), [&](Point& p) { p[2] = ulp.uniform(-1, 1) * 0x1p-52; }), 4);  // almost flat
+  expect_strips_inside(changed(terrain, [](Point& p) { p[0] = std::exp2(p[0] * 4); }), 5);                     // all sizes
+}
+
+mpq_class exact_landing(const mpq_class& ix, const mpq_class& iy, const mpq_class& px, const mpq_class& py) {
+  return ix - (px - ix) * iy / (py - iy);
+}
+
+// Both points pushed to the rims of their discs, in rational directions on the unit circle.
+TEST(LandingBounds, MarginCoversEveryPairOfPoints) {
+  Random random(7);
+  double tightest = 1e300;
+  for (int i = 0; i < 20000; ++i) {
+    const double y = -std::ldexp(random.uniform(0.5, 1), static_cast<int>(random.below(30)) - 20);
+    const Complex<double> image{random.uniform(-2, 2) * (random.below(2) == 0 ? 1 : 1000), y};
+    const double fraction = std::ldexp(random.uniform(), -static_cast<int>(random.below(40)));  // of the way to the side
+    const double at = random.uniform();
+    const Complex<double> p{random.below(4) == 0 ? image.x : image.x + fraction * (at - image.x), y * (1 - fraction)};
+    const double disc = (1 + std::fabs(image.x) + std::fabs(image.y)) * std::ldexp(16 * kU, static_cast<int>(random.below(25)));
+    const auto landing = predicates::land(image, p, disc);
+    if (landing.margin == predicates::kNoLanding.margin) continue;
+    for (int k = 0; k < 4; ++k) {
+      const auto rim = [&](int quarter) {
+        const mpq_class t = random.uniform(-1, 1), square = 1 + t * t;
+        const mpq_class c = (1 - t * t) / square * disc, s = 2 * t / square * disc;
+        return std::pair(quarter == 0 ? c : mpq_class(-c), quarter == 0 ? s : mpq_class(-s));
+      };
+      const auto [dx, dy] = rim(k % 2);
+      const auto [ex, ey] = rim(k / 2);
+      const mpq_class off = abs(exact_landing(image.x + dx, image.y + dy, p.x + ex, p.y + ey) - landing.at);
+      ASSERT_LE(off, mpq_class(landing.margin)) << i;
+      if (off > 0) tightest = std::min(tightest, mpq_class(landing.margin / off).get_d());
+    }
+  }
+  EXPECT_LT(tightest, 3);  // the margin is not far from what is needed
+}
+
+}  // namespace
+}  // namespace gvd::test
