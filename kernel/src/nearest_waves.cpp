@@ -81,7 +81,8 @@ class NearestSearch {
     result_.distance = all;
     result_.is_one_path = kept.size() == 1;
     const LabelSetId labels = waves_.sites[result_.sites.front()].labels;
-    const bool same = std::all_of(result_.sites.begin(), result_.sites.end(), [&](auto i) { return waves_.sites[i].labels == labels; });
+    const bool same =
+        std::all_of(result_.sites.begin(), result_.sites.end(), [&](auto i) { return waves_.sites[i].labels == labels; });
     result_.is_decided = rounds_alike && same;
     return result_.is_decided && (result_.is_one_path || !to_one_path_);
   }

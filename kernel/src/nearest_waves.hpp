@@ -14,9 +14,9 @@ namespace gvd::kernel {
 struct NearestWaves {
   /// Indices in FieldWaves::sites. The nearest wave is one of them.
   std::vector<std::uint32_t> sites;
-  Enclosed distance;           ///< mesh units; the value is correctly rounded if `is_decided`
-  bool is_decided = false;     ///< the distance is rounded, and all sites have one label set or are exactly tied
-  bool is_one_path = false;    ///< all sites are certainly nearest
+  Enclosed distance;         ///< mesh units; the value is correctly rounded if `is_decided`
+  bool is_decided = false;   ///< the distance is rounded, and all sites have one label set or are exactly tied
+  bool is_one_path = false;  ///< all sites are certainly nearest
 };
 
 /// Decides which waves of a facet are nearest at one of its points. With `to_one_path` it also decides between waves of the same

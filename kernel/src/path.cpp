@@ -62,7 +62,8 @@ class PathTracer {
   bool has_arrived(VertexId v) const {
     if (!resolution_.is_live_source(v)) return false;
     const auto& list = state_.source_vertices;
-    const auto found = std::lower_bound(list.begin(), list.end(), v, [](const SourceVertex& s, VertexId id) { return s.vertex < id; });
+    const auto found =
+        std::lower_bound(list.begin(), list.end(), v, [](const SourceVertex& s, VertexId id) { return s.vertex < id; });
     return leads_to_source(found->labels);
   }
 
@@ -77,7 +78,8 @@ class PathTracer {
         follow_window(site.window, from_.at.bary);
       return site.root;
     }
-    throw InternalError("no wave brings source " + std::to_string(source_) + " to a point of face " + std::to_string(from_.at.face));
+    throw InternalError("no wave brings source " + std::to_string(source_) + " to a point of face " +
+                        std::to_string(from_.at.face));
   }
 
   VertexId leave_vertex(VertexId v) {

@@ -12,7 +12,7 @@ struct AnsweredPoint {
   PointAnswer answer;
   RefinedPoint at;
   std::unique_ptr<FieldWaves> waves;  ///< unless the point is a vertex of the refined mesh
-  NearestWaves nearest;             ///< the same
+  NearestWaves nearest;               ///< the same
 };
 
 /// Pre: the solution is complete. `to_one_path`: as for `nearest_waves`.

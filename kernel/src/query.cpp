@@ -8,12 +8,13 @@
 namespace gvd::kernel {
 namespace {
 
-/// Whether a decision of the field itself is open: then nothing that is read from it is proved.
-bool field_is_undecided(const Solution::Impl& state) {
-  using predicates::Predicate;
-  for (const Predicate p : {Predicate::vertex_distance, Predicate::window_orientation})
-    if (state.decisions(static_cast<std::size_t>(p), robust::Stage::undecided) > 0) return true;
-  return false;
+/// Whether all that the answer is made of is proved: the strips, and the distances of the roots of all waves.
+bool stands_on_proof(const Solution::Impl& state, const AnsweredPoint& result) {
+  const auto strips = static_cast<std::size_t>(predicates::Predicate::window_orientation);
+  if (state.decisions(strips, robust::Stage::undecided) > 0) return false;
+  if (result.at.vertex != kNone) return state.resolution->is_proved(result.at.vertex);
+  const auto& sites = result.waves->sites;
+  return std::all_of(sites.begin(), sites.end(), [&](const FacetSite& site) { return state.resolution->is_proved(site.root); });
 }
 
 void answer_unreachable(PointAnswer& answer) {
@@ -58,7 +59,7 @@ AnsweredPoint answer_point(const Solution::Impl& state, const SurfacePoint& at, 
     std::sort(nearest.begin(), nearest.end());
     nearest.erase(std::unique(nearest.begin(), nearest.end()), nearest.end());
   }
-  result.answer.undecided = result.answer.undecided || field_is_undecided(state);
+  result.answer.undecided = result.answer.undecided || !stands_on_proof(state, result);
   return result;
 }
 

@@ -12,7 +12,8 @@ namespace gvd::kernel {
 namespace {
 
 /// The barycentric coordinates of `p`, which are those in an input face, in a part of that face; empty if it lies outside.
-std::optional<std::array<mpq_class, 3>> in_part(const Mesh& input, const Mesh& refined, FaceId part, const std::array<mpq_class, 3>& p) {
+std::optional<std::array<mpq_class, 3>> in_part(const Mesh& input, const Mesh& refined, FaceId part,
+                                                const std::array<mpq_class, 3>& p) {
   const FaceId face = refined.input_face(part);
   std::array<std::array<mpq_class, 3>, 3> corner;
   for (std::uint32_t k = 0; k < 3; ++k) corner[k] = barycentric_in_face(input, face, refined, refined.origin(3 * part + k));

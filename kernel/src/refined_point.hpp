@@ -38,9 +38,9 @@ class FaceParts {
 
 /// A surface point of the input as a point of the refined mesh, exactly.
 struct RefinedPoint {
-  VertexId vertex = kNone;         ///< of the refined mesh, set if the point is that vertex; then face and bary may be missing
-  FaceId face = kNone;             ///< of the refined mesh
-  std::array<mpq_class, 3> bary;   ///< in that face
+  VertexId vertex = kNone;        ///< of the refined mesh, set if the point is that vertex; then face and bary may be missing
+  FaceId face = kNone;            ///< of the refined mesh
+  std::array<mpq_class, 3> bary;  ///< in that face
 };
 
 /// Throws InputError if `at` is not a point of the input. Cost: proportional to the parts of its face.

@@ -61,6 +61,7 @@ Resolution::Resolution(const Frames& frames, DistanceField& field, const std::ve
   source_of_vertex_.assign(n, kNone);
   for (std::size_t i = 0; i < sources.size(); ++i) source_of_vertex_[sources[i].vertex] = static_cast<std::uint32_t>(i);
   labels_.assign(n, kNone);
+  proved_.assign(n, 0);
   distance_.resize(n);
 }
 
@@ -76,6 +77,8 @@ void Resolution::resolve(predicates::Decisions& decisions) {
 }
 
 void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
+  const auto open_decisions = [&] { return decisions(static_cast<std::size_t>(Predicate::vertex_distance), Stage::undecided); };
+  const std::uint64_t open_before = open_decisions();
   std::vector<std::uint32_t> list;
   for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
     const Candidate& candidate = field_.candidates[c];
@@ -89,6 +92,10 @@ void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
     list.push_back(c);
   }
   if (list.empty()) throw InternalError("vertex " + std::to_string(v) + " is reached by no candidate");
+  const bool stands_on_proof = std::all_of(list.begin(), list.end(), [&](std::uint32_t c) {
+    const VertexId via = field_.candidates[c].via;
+    return via == v || proved_[via] != 0;
+  });
   if (list.size() == 1) {
     predicates::count(decisions, Predicate::vertex_distance, Stage::filter);
   } else {
@@ -102,6 +109,7 @@ void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
     labels = labels == kNone ? own : sets_.merge(labels, own);
   }
   labels_[v] = labels;
+  proved_[v] = stands_on_proof && open_decisions() == open_before;
   distance_[v] = length(field_.candidates[list.front()], v);
   field_.first_candidate[v] = list.front();
   for (std::size_t i = 0; i < list.size(); ++i) field_.candidates[list[i]].next = i + 1 < list.size() ? list[i + 1] : kNone;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -35,8 +34,8 @@ class DiscNumbers {
     return {{x.mid(), y.mid()}, (x.rad() + y.rad()) * (1 + 0x1p-40)};
   }
   Point cross(const Point& z, HalfedgeId side, bool left) { return predicates::cross(z, frame(side), left, unit_); }
-  /// Back into the frame of h, from that of its neighbour over prev(h) (left) or next(h): z w, or 1 - (1 - z)(1 - w) with the apex w of h.
-  /// The error is bounded as that of predicates::cross, which is of the same form.
+  /// Back into the frame of h, from that of its neighbour over prev(h) (left) or next(h): z w, or 1 - (1 - z)(1 - w) with the apex
+  /// w of h. The error is bounded as that of predicates::cross, which is of the same form.
   Point cross_back(const Point& z, HalfedgeId h, bool left) {
     const auto& f = frame(h);
     Point result;
@@ -62,16 +61,14 @@ class DiscNumbers {
     if constexpr (std::is_same_v<T, robust::DoubleDouble>) {
       return frames_.in_double_double(h);
     } else {
-      if (Mesh::face(h) != face_) frame_ = frames_.in_mpfr(face_ = Mesh::face(h), bits_);
-      return frame_[h % 3];
+      return cache_(frames_, h, bits_);
     }
   }
 
   const Frames& frames_;
   int bits_;
   double unit_;
-  FaceId face_ = kNone;
-  std::array<predicates::EdgeFrame<T>, 3> frame_{};
+  MpfrFrames cache_;
 };
 
 /// In rationals over a common root. Pre: all faces of the strip are of the class of `radicand`.
@@ -98,7 +95,9 @@ class RationalNumbers {
     const mpq_class x = 1 - z.x;
     return {1 - (x * f.v - z.y * f.y * radicand_), x * f.y + z.y * f.v};
   }
-  Number meet(const Point& below, const Point& above) const { return below.x - (above.x - below.x) * below.y / (above.y - below.y); }
+  Number meet(const Point& below, const Point& above) const {
+    return below.x - (above.x - below.x) * below.y / (above.y - below.y);
+  }
 
  private:
   RationalFrame frame(HalfedgeId h) const { return rational_frame(frames_, h, radicand_); }

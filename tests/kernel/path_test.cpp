@@ -12,7 +12,9 @@ namespace {
 using test::in_face;
 
 bool lies_in(const Mesh& mesh, const PathPoint& p, FaceId face) {
-  const auto has = [&](VertexId v) { return mesh.origin(3 * face) == v || mesh.origin(3 * face + 1) == v || mesh.origin(3 * face + 2) == v; };
+  const auto has = [&](VertexId v) {
+    return mesh.origin(3 * face) == v || mesh.origin(3 * face + 1) == v || mesh.origin(3 * face + 2) == v;
+  };
   if (p.vertex != kNone) return has(p.vertex);
   if (p.edge[0] != kNone) return has(p.edge[0]) && has(p.edge[1]);
   return true;
@@ -73,7 +75,9 @@ std::size_t check_path(const Mesh& mesh, const std::vector<Source>& sources, con
 TEST(Path, IsStraightInThePlane) {
   for (const auto diagonal : {test::Diagonal::rising, test::Diagonal::falling, test::Diagonal::alternating}) {
     const Mesh mesh(test::flat_grid(4, 4, diagonal));
-    const std::vector<Source> sources{{in_face(9, 1, 2, 1), 0}, {in_face(9, 3, 1, 2), 0}, test::vertex_source(mesh, 24),
+    const std::vector<Source> sources{{in_face(9, 1, 2, 1), 0},
+                                      {in_face(9, 3, 1, 2), 0},
+                                      test::vertex_source(mesh, 24),
                                       {point_on_edge(mesh, 0, 1, mpq_class(1, 3)), 0}};
     const Solution solution = test::solve_field(mesh, sources);
     for (FaceId f = 0; f < mesh.face_count(); ++f) {
@@ -192,7 +196,9 @@ TEST(Path, PassesByHiddenSources) {
 
 TEST(Path, OnTerrain) {
   const Mesh mesh(test::fractal_terrain(3, 3, 0.6, 21));
-  const std::vector<Source> sources{test::vertex_source(mesh, 3, 0.25), {in_face(40, 1, 2, 3), 0}, {in_face(40, 5, 1, 1), 0},
+  const std::vector<Source> sources{test::vertex_source(mesh, 3, 0.25),
+                                    {in_face(40, 1, 2, 3), 0},
+                                    {in_face(40, 5, 1, 1), 0},
                                     {point_on_edge(mesh, 60, 61, mpq_class(2, 7)), 0.125}};
   const Solution solution = test::solve_field(mesh, sources);
   test::Random random(4);

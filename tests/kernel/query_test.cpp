@@ -55,8 +55,11 @@ TEST(Query, FlatGridIsThePlane) {
   for (const auto diagonal : {test::Diagonal::rising, test::Diagonal::alternating}) {
     const Mesh mesh(test::flat_grid(4, 4, diagonal));
     // Two in one face, one on an edge of that face, one at a vertex, one on the boundary.
-    const std::vector<Source> sources{{in_face(9, 1, 2, 1), 0}, {in_face(9, 3, 1, 2), 0}, {in_face(9, 1, 1, 0), 0},
-                                      test::vertex_source(mesh, 24), {point_on_edge(mesh, 0, 1, mpq_class(1, 3)), 0}};
+    const std::vector<Source> sources{{in_face(9, 1, 2, 1), 0},
+                                      {in_face(9, 3, 1, 2), 0},
+                                      {in_face(9, 1, 1, 0), 0},
+                                      test::vertex_source(mesh, 24),
+                                      {point_on_edge(mesh, 0, 1, mpq_class(1, 3)), 0}};
     const Solution solution = test::solve_field(mesh, sources);
     ASSERT_EQ(solution.status(), Status::certified);
     for (FaceId f = 0; f < mesh.face_count(); ++f)
@@ -123,7 +126,10 @@ TEST(Query, UnitCubeInClosedForm) {
 class QueryTerrain : public testing::Test {
  protected:
   QueryTerrain() : mesh(test::random_terrain(4, 2, 11)) {
-    sources = {test::vertex_source(mesh, 3), {in_face(20, 1, 2, 3), 0}, {in_face(20, 5, 1, 1), 0}, {point_on_edge(mesh, 17, 18, mpq_class(2, 7)), 0}};
+    sources = {test::vertex_source(mesh, 3),
+               {in_face(20, 1, 2, 3), 0},
+               {in_face(20, 5, 1, 1), 0},
+               {point_on_edge(mesh, 17, 18, mpq_class(2, 7)), 0}};
   }
   Mesh mesh;
   std::vector<Source> sources;
@@ -165,6 +171,32 @@ TEST_F(QueryTerrain, IsTheSameFromBothSidesOfAnEdge) {
       EXPECT_EQ(a.nearest, b.nearest);
     }
   }
+}
+
+/// Two sources mirrored in the plane x = 2: beside it one is nearer by 2^-190, in faces of several square classes.
+TEST(Query, TellsWhatDoublesCannot) {
+  test::Random heights(8);
+  double z[3][5];
+  for (auto& row : z)
+    for (double& height : row) height = heights.uniform();
+  const auto height = [&](std::uint32_t i, std::uint32_t j) { return z[i < 2 ? 2 - i : i - 2][j]; };
+  const Mesh mesh(test::grid(4, 4, height, test::Diagonal::alternating));
+  const Solution solution = test::solve_field(mesh, {test::vertex_source(mesh, 1), test::vertex_source(mesh, 3)});
+  const mpq_class tiny = robust::power_of_two(-190);
+  int decided = 0;
+  for (std::uint32_t j = 0; j < 4; ++j) {
+    const SurfacePoint middle = point_on_edge(mesh, 5 * j + 2, 5 * j + 7, mpq_class(1, 3));
+    const PointAnswer tie = solution.query(middle);
+    EXPECT_EQ(tie.nearest, (std::vector<SourceId>{0, 1}));
+    SurfacePoint beside = middle;
+    for (std::size_t k = 0; k < 3; ++k) beside.bary[k] = sgn(middle.bary[k]) == 0 ? tiny : mpq_class(middle.bary[k] - tiny / 2);
+    const PointAnswer answer = solution.query(beside);
+    if (answer.undecided) continue;  // it stands on a vertex of the middle, where the tie is not proved
+    ++decided;
+    EXPECT_EQ(answer.distance, tie.distance);
+    EXPECT_EQ(answer.nearest, std::vector<SourceId>{exact_position(mesh, beside)[0] < 2 ? 0u : 1u});
+  }
+  EXPECT_GE(decided, 1);
 }
 
 /// The truth by another way: the point as a source, the sources as vertices.

@@ -47,6 +47,8 @@ class Resolution {
 
   bool is_reached(VertexId v) const noexcept { return labels_[v] != kNone; }
   LabelSetId labels(VertexId v) const noexcept { return labels_[v]; }
+  /// Whether the labels and the distance of v stand on no open decision, its own or that of a vertex its paths come from.
+  bool is_proved(VertexId v) const noexcept { return proved_[v] != 0; }
   const std::vector<LabelSetId>& labels() const noexcept { return labels_; }
   /// Whether the window, whose apex v is, brings v its distance.
   bool attains(WindowId window, VertexId v) const noexcept;
@@ -83,6 +85,7 @@ class Resolution {
   LabelSets& sets_;
   std::vector<std::uint32_t> source_of_vertex_;
   std::vector<LabelSetId> labels_;
+  std::vector<std::uint8_t> proved_;
   std::vector<robust::Ball<robust::DoubleDouble>> distance_;
 };
 

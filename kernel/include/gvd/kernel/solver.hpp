@@ -108,7 +108,8 @@ class Solution {
   /// All nearest sources of vertex v of the input, sorted; empty if unreachable. Duplicate sources are both listed. Cost: O(1).
   std::span<const SourceId> nearest(VertexId v) const;
 
-  /// Distance and nearest sources at any surface point of the input mesh. Cost: proportional to the waves of its facet.
+  /// Distance and nearest sources at any surface point of the input mesh. Throws InputError if `at` is none. Cost: proportional to the
+  /// waves of its facet, and to the sources inside its face.
   PointAnswer query(const SurfacePoint& at) const;
   /// The same, with a geodesic path. Cost: in addition proportional to the length of the path in faces.
   PointAnswer path(const SurfacePoint& at) const;
