@@ -52,7 +52,9 @@ class ExactMesh {
   static Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
-  static bool collinear(const Vector& a, const Vector& b, const Vector& p) { return cross(minus(b, a), minus(p, a)) == Vector{0, 0, 0}; }
+  static bool collinear(const Vector& a, const Vector& b, const Vector& p) {
+    return cross(minus(b, a), minus(p, a)) == Vector{0, 0, 0};
+  }
   bool contains(const std::array<std::uint32_t, 3>& f, const Vector& p) const {
     const Vector &a = points[f[0]], &b = points[f[1]], &c = points[f[2]];
     const Vector n = cross(minus(b, a), minus(c, a));
@@ -114,7 +116,8 @@ class BruteForce {
 
   mpq_class dot(std::uint32_t o, std::uint32_t a, std::uint32_t b) const {
     mpq_class sum;
-    for (std::size_t k = 0; k < 3; ++k) sum += (mesh_.points[a][k] - mesh_.points[o][k]) * (mesh_.points[b][k] - mesh_.points[o][k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += (mesh_.points[a][k] - mesh_.points[o][k]) * (mesh_.points[b][k] - mesh_.points[o][k]);
     return sum;
   }
   /// Coordinates of c along and across the edge a -> b, as multiples of the edge: c = a + t (b - a) + s (b - a) turned left.

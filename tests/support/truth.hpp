@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -31,6 +32,15 @@ inline kernel::SolveOptions distances_only() {
   return options;
 }
 
+/// Whether everything was proved; if not, what was not.
+inline testing::AssertionResult is_certified(const kernel::Solution& solution) {
+  if (solution.status() == kernel::Status::certified) return testing::AssertionSuccess();
+  auto result = testing::AssertionFailure() << kernel::status_name(solution.status());
+  const auto& list = solution.decisions().undecided_list();
+  for (std::size_t i = 0; i < std::min<std::size_t>(list.size(), 10); ++i) result << "\n  " << list[i];
+  return result;
+}
+
 /// The distance of vertex v from source s, its weight not counted.
 using DistanceTruth = std::function<robust::RootSum(kernel::VertexId v, std::size_t s)>;
 
@@ -40,7 +50,7 @@ inline void expect_truth(const kernel::Mesh& mesh, const std::vector<kernel::Sou
                          const std::string& what = "") {
   SCOPED_TRACE(what);
   const auto solution = kernel::solve(mesh, sources, distances_only());
-  EXPECT_EQ(solution.status(), kernel::Status::certified);
+  EXPECT_TRUE(is_certified(solution));
   int shown = 0;
   for (kernel::VertexId v = 0; v < mesh.vertex_count() && shown < 5; ++v) {
     robust::RootSum least;

@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/truth.hpp"
+
+/// Shapes of diagrams that are easy to forget.
+namespace gvd::kernel {
+namespace {
+
+using test::at_vertex;
+
+Source in_face(const Mesh& mesh, FaceId f, long a, long b, long c, double weight = 0) {
+  return {point_in_face(mesh, f, {mpq_class(a), mpq_class(b), mpq_class(c)}), weight};
+}
+
+std::set<std::array<SourceId, 2>> dual(const Diagram& d) {
+  std::set<std::array<SourceId, 2>> pairs;
+  for (const DualEdge& e : d.dual) pairs.insert(e.sources);
+  return pairs;
+}
+
+double total_area(const Diagram& d) {
+  double sum = 0;
+  for (const Cell& c : d.cells) sum += c.area;
+  return sum;
+}
+
+TEST(Shapes, EdgeAlongMeshEdges) {
+  // Two sources that mirror each other in the column x = 2, a line of mesh edges, of a roof and of a plane.
+  for (const auto& arrays : {test::flat_grid(4, 4), test::roof(2, 4, 8, 6)}) {
+    const Mesh mesh(arrays);
+    const double left = mesh.point(1)[0], right = mesh.point(3)[0], middle = mesh.point(2)[0];
+    const std::vector<Source> sources = {at_vertex(mesh, 2 * 5 + 1), at_vertex(mesh, 2 * 5 + 3)};
+    ASSERT_EQ(left + right, 2 * middle);
+    const auto solution = solve(mesh, sources);
+    ASSERT_TRUE(test::is_certified(solution));
+    const Diagram& d = solution.diagram();
+    ASSERT_EQ(d.edges.size(), 1u);
+    EXPECT_FALSE(d.edges[0].closed);
+    EXPECT_EQ(d.edges[0].arcs.size(), 4u);
+    for (const Arc& arc : d.arcs) {
+      EXPECT_TRUE(arc.along_edge);
+      for (const auto node : arc.node) EXPECT_EQ(d.points[node].position[0], middle);
+    }
+    EXPECT_TRUE(d.vertices.empty());
+    EXPECT_EQ(d.boundary_meetings.size(), 2u);
+    EXPECT_TRUE(d.break_points.empty());
+    EXPECT_EQ(d.cells[0].area, d.cells[1].area);
+  }
+}
+
+TEST(Shapes, SeveralSourcesInOneFacet) {
+  // A triangle with corners (0, 0), (12, 0), (0, 12) and three sources inside; the circumcentre of (2, 2), (6, 2), (2, 6) is (4,
+  // 4).
+  const Mesh mesh({{{0, 0, 0}, {12, 0, 0}, {0, 12, 0}, {12, 12, 0}}, {{0, 1, 2}, {1, 3, 2}}});
+  const std::vector<Source> sources = {in_face(mesh, 0, 8, 2, 2), in_face(mesh, 0, 4, 6, 2), in_face(mesh, 0, 4, 2, 6)};
+  const auto solution = solve(mesh, sources);
+  ASSERT_TRUE(test::is_certified(solution));
+  const Diagram& d = solution.diagram();
+  ASSERT_EQ(d.vertices.size(), 1u);
+  EXPECT_EQ(d.points[d.vertices[0].point].position, (Point{4, 4, 0}));
+  EXPECT_EQ(d.vertices[0].sources, (std::vector<SourceId>{0, 1, 2}));
+  EXPECT_EQ(d.edges.size(), 3u);
+  EXPECT_EQ(d.boundary_meetings.size(), 3u);
+  EXPECT_NEAR(total_area(d), 144, 1e-12);
+  EXPECT_NEAR(d.cells[0].area, 16, 1e-13);
+}
+
+TEST(Shapes, SteepPeakIsAnIslandInOneCell) {
+  // A needle on a plane: its top is a source; the wave of the other source comes up on all sides. The edge between them is closed,
+  // and the other cell has a hole.
+  auto arrays = test::random_terrain(8, 0.01, 900);
+  arrays.points[4 * 9 + 4][2] = 20;
+  const Mesh mesh(arrays);
+  const std::vector<Source> sources = {at_vertex(mesh, 4 * 9 + 4), at_vertex(mesh, 0)};
+  const auto solution = solve(mesh, sources);
+  ASSERT_TRUE(test::is_certified(solution));
+  const Diagram& d = solution.diagram();
+  ASSERT_EQ(d.edges.size(), 1u);
+  EXPECT_TRUE(d.edges[0].closed);
+  EXPECT_TRUE(d.vertices.empty());
+  EXPECT_TRUE(d.boundary_meetings.empty());
+  EXPECT_EQ(d.cells[0].euler, 1);
+  EXPECT_EQ(d.cells[1].euler, 0);
+  EXPECT_EQ(dual(d), (std::set<std::array<SourceId, 2>>{{0, 1}}));
+}
+
+TEST(Shapes, WeightedTripleWithTwoVertices) {
+  // A late source between two early ones: its cell is a lens, and all three meet above and below it.
+  const Mesh mesh({{{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+  const auto at = [&](long x, long y, double weight) {
+    // In face 0 below the diagonal y = x, in face 1 above it.
+    const long low = y <= x ? 10 - x : 10 - y, high = y <= x ? y + 10 : x + 10, side = 20 - low - high;
+    return y <= x ? in_face(mesh, 0, low, side, high, weight) : in_face(mesh, 1, low, high, side, weight);
+  };
+  const std::vector<Source> sources = {at(-4, 0, 0), at(4, 0, 0), at(0, 0, 3)};
+  const auto solution = solve(mesh, sources);
+  ASSERT_TRUE(test::is_certified(solution));
+  const Diagram& d = solution.diagram();
+  // |p| + 3 = |p - (4, 0)| on the y axis: y + 3 = sqrt(16 + y^2), so y = 7 / 6.
+  std::set<Point> found;
+  for (const GvdVertex& v : d.vertices) {
+    EXPECT_EQ(v.sources, (std::vector<SourceId>{0, 1, 2}));
+    found.insert(d.points[v.point].position);
+  }
+  EXPECT_EQ(found, (std::set<Point>{{0, -7.0 / 6, 0}, {0, 7.0 / 6, 0}}));
+  EXPECT_EQ(d.edges.size(), 4u);
+  EXPECT_EQ(d.dual.size(), 3u);
+  for (const DualEdge& e : d.dual) EXPECT_EQ(e.edges.size(), e.sources[1] == 1 ? 2u : 1u);
+  EXPECT_EQ(d.cells[0].euler, 1);
+  EXPECT_NEAR(total_area(d), 400, 1e-11);
+}
+
+TEST(Shapes, RegionTouchesItsFacetOnlyAtTheRelay) {
+  // Random saddles whose sources lie behind one another: Euler's formula is checked inside; the areas must add up.
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Random random(seed);
+    auto arrays = test::saddle_fan(3 + seed % 3, 1.5);
+    for (Point& p : arrays.points)
+      for (double& x : p) x += random.uniform(-0.05, 0.05);
+    const Mesh mesh(arrays);
+    double surface = 0;
+    std::vector<Source> sources;
+    for (std::uint32_t i = 0; i < 3; ++i) sources.push_back(test::inside_face(mesh, random.below(mesh.face_count()), random));
+    const auto solution = solve(mesh, sources);
+    ASSERT_TRUE(test::is_certified(solution));
+    for (FaceId f = 0; f < mesh.face_count(); ++f) {
+      const Point &a = mesh.point(mesh.origin(3 * f)), &b = mesh.point(mesh.origin(3 * f + 1)),
+                  &c = mesh.point(mesh.origin(3 * f + 2));
+      const Point u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+      surface += std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+    }
+    EXPECT_NEAR(total_area(solution.diagram()) / surface, 1, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace gvd::kernel
