@@ -69,7 +69,7 @@ bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Co
 
 /// Whether the right boundary ray of one cone is the left one of the other.
 bool Contenders::touching(FacetLadder& ladder, const Contender& left, const Contender& right) const {
-  if (left.cone[1] == right.cone[0]) return true;
+  if (left.cone[1] == right.cone[0] && left.cone[1] != kNone) return true;
   const auto sign = ladder.for_each_stage([&](const auto& numbers, robust::Stage) {
     const auto& image = numbers.sites[left.site]->image;
     return maybe_sign(predicates::orientation(image, numbers.sites[left.cone_site[1]]->cone[1], numbers.sites[right.cone_site[0]]->cone[0]));

@@ -159,10 +159,6 @@ void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
   site.root = root;
   site.labels = resolution_.labels(root);
   note_cone(site, arrival.strip, window);
-  for (std::uint8_t c = 0; c < 2; ++c) {
-    const std::uint8_t k = static_cast<std::uint8_t>((side + c) % 3);
-    site.attains_corner[k] = site.cone[c] == corner[k] && site.attains_cone[c];
-  }
   const std::uint8_t opposite = static_cast<std::uint8_t>((side + 2) % 3);
   site.attains_corner[opposite] = resolution_.attains(window, corner[opposite]);
   site.path_to_corner[opposite] = path_through(window);
@@ -223,9 +219,25 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
 void FieldWaves::note_cone(FacetSite& site, const Strip& strip, WindowId window) const {
   const Mesh& mesh = resolution_.frames().mesh();
   std::array<bool, 2> known{false, false};
+  // A strip may turn about a vertex more than once in a lifetime: what bounds the cone is a corner of the facet only if no step since has left it.
+  std::array<bool, 2> at_corner{true, true};
+  for (std::size_t c = 0; c < 2; ++c) {
+    const bool turning_left = c == 0;
+    for (std::size_t i = strip.steps.size(); i-- > 0;) {
+      if (strip.steps[i].left == turning_left) continue;
+      at_corner[c] = strip.steps[i].bounds;
+      break;
+    }
+  }
   const auto note_path = [&](std::size_t c, std::uint64_t path) {
     const std::size_t k = (site.side + c) % 3;
-    if (site.cone[c] == corner[k]) site.path_to_corner[k] = path;
+    if (at_corner[c]) {
+      site.path_to_corner[k] = path;
+      site.attains_corner[k] = site.attains_cone[c];
+    } else if (std::find(corner.begin(), corner.end(), site.cone[c]) != corner.end()) {
+      site.cone[c] = kNone;  // an earlier visit of the corner, unfolded to another place
+      site.attains_cone[c] = false;
+    }
   };
   WindowId w = window;
   for (std::size_t i = strip.steps.size(); i-- > 0; w = field_.windows[w].parent) {

@@ -43,6 +43,8 @@ Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& ki
   sights_.resize(m);
   upper_.assign(n, infinity);
   settled_.assign(n, 0);
+  degree_.assign(n, 0);
+  for (HalfedgeId h = 0; h < m; ++h) degree_[mesh_.origin(h)] = static_cast<std::uint16_t>(std::min(degree_[mesh_.origin(h)] + 1, 0xffff));
   emitted_weight_.assign(n, infinity);
   emitted_error_.assign(n, 0);
   emitted_.assign(m, kNone);
@@ -177,6 +179,7 @@ void Propagation::emit(VertexId v, HalfedgeId outgoing) {
   wave.image_error = rounded_up(2 * kStepError * (norm1(wave.image.x, wave.image.y) + 1) * frame.length);
   wave.begin_slack = wave.end_slack = 0;
   wave.begin_trimmed = wave.end_trimmed = false;
+  wave.begin_turns = wave.end_turns = 0;
   wave.cone0_at_origin = wave.cone1_at_target = true;
   wave.window = new_window(kNone, target, v, false);
   emitted_[outgoing] = wave.window;
@@ -400,6 +403,10 @@ void Propagation::make_child(std::uint32_t parent, Sight sight, HalfedgeId h, Ha
   const bool at_apex = kLeft ? sight == Sight::inside || sight == Sight::on_ray_1 : sight == Sight::inside || sight == Sight::on_ray_0;
   const double length = side.length, parent_length = frames_[h].length;
   Wave child;
+  // A shortest path crosses no edge twice: a window that has come once round a vertex is done.
+  child.begin_turns = kLeft ? static_cast<std::uint16_t>(wave.begin_turns + 1) : std::uint16_t{0};
+  child.end_turns = kLeft ? std::uint16_t{0} : static_cast<std::uint16_t>(wave.end_turns + 1);
+  if ((kLeft ? child.begin_turns : child.end_turns) >= degree_[kLeft ? mesh_.origin(target) : mesh_.target(target)]) return;
   child.image = cross(wave.image);
   const double reach = (norm1(wave.image.x, wave.image.y) + 1) * parent_length + (norm1(child.image.x, child.image.y) + 1) * length;
   const double image_error = wave.image_error + kStepError * reach;

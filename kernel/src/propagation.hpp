@@ -22,6 +22,7 @@ class Propagation {
   /// A window while it waits to cross the face: its numbers in the frame of its half-edge.
   struct Wave : WindowInterval {
     Image cone0, cone1;
+    std::uint16_t begin_turns, end_turns;  // faces crossed in a row about the origin and the target of the half-edge
     WindowId window;
     std::uint32_t next;
   };
@@ -75,6 +76,7 @@ class Propagation {
   std::vector<ApexSight> sights_;
   std::vector<double> upper_;                 // per vertex: certain upper bound of D
   std::vector<std::uint8_t> settled_;
+  std::vector<std::uint16_t> degree_;         // faces at a vertex
   std::vector<double> emitted_weight_, emitted_error_;
   std::vector<WindowId> emitted_;             // per outgoing half-edge: the first window sent over the opposite side
   std::vector<Crossing> crossings_;
