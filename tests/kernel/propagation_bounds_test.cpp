@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -133,6 +134,11 @@ TEST(PropagationBounds, CandidateErrorsCoverTheTruth) {
   expect_errors_cover(changed(terrain, [](Point& p) { p[0] += 1e7, p[1] += 1e7; }), at_vertices({0, 150}), "offset");
   expect_errors_cover(changed(flat_grid(12, 12), [&](Point& p) { p[2] = ulp.uniform(-1, 1) * 0x1p-52; }), at_vertices({0, 80}), "ulps");
   expect_errors_cover(changed(terrain, [](Point& p) { p[0] = std::exp2(p[0] * 2); }), at_vertices({140}), "sizes");
+  const auto shrink = [](Point& p) {  // down to 2^-140: below the range of float
+    const double factor = std::exp2(std::min(0.0, 20 * (std::hypot(p[0], p[1]) - 7)));
+    for (double& x : p) x *= factor;
+  };
+  expect_errors_cover(changed(fractal_terrain(3, 1, 0.6, 14), shrink), at_vertices({1, 70}), "tiny");
   expect_errors_cover(integer_terrain(8, 3, 4), at_vertices({0, 44}), "integers");
 }
 

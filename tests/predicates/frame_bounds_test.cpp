@@ -153,6 +153,15 @@ TEST(FrameBounds, FramesOfAllShapesKeepTheirBounds) {
   EXPECT_GT(with_tiny_side, 30);
 }
 
+// A needle whose height is lost to cancellation is within the bounds; a side that is too short is not.
+TEST(FrameBounds, OnlySidesTooShortCountAsUnderflow) {
+  const auto has_underflow = [](const Point& b, const Point& c) { return Frames(Mesh({{{0, 0, 0}, b, c}, {{0, 1, 2}}})).has_underflow(); };
+  EXPECT_FALSE(has_underflow({1, 0.3, 0.7}, {0.5, 0.15, std::nextafter(0.35, 1)}));
+  EXPECT_FALSE(has_underflow({1, 0, 0}, {0.5, 0x1p-400, 0}));
+  EXPECT_FALSE(has_underflow({1, 0, 0}, {0, 0x1p-199, 0}));
+  EXPECT_TRUE(has_underflow({1, 0, 0}, {0, 0x1p-201, 0}));
+}
+
 /// A strip that wanders over the mesh; its cone is reset at random.
 Strip random_strip(const Mesh& mesh, std::size_t length, Random& random) {
   Strip strip;
