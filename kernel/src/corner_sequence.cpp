@@ -149,6 +149,20 @@ std::vector<std::uint32_t> CornerOrder::envelope(std::size_t c, const std::vecto
   return kept;
 }
 
+/// The waves that are nearest in some direction follow one another counter-clockwise by the directions of their images, beginning with the one
+/// that is nearest beside the outgoing side; images may lie all round the corner.
+std::vector<std::uint32_t> CornerOrder::from_outgoing(std::size_t c, std::vector<std::uint32_t> waves) {
+  for (std::size_t i = 1; i < waves.size(); ++i)
+    if (nearer_beside(c, Direction::outgoing, waves[i], waves[0]) == Sign::positive) std::swap(waves[0], waves[i]);
+  const auto before = [&](std::uint32_t p, std::uint32_t q) {
+    const bool p_near = turn(c, waves[0], p) == Sign::positive, q_near = turn(c, waves[0], q) == Sign::positive;
+    return p_near != q_near ? p_near : turn(c, p, q) == Sign::positive;
+  };
+  for (std::size_t i = 2; i < waves.size() && !ladder_.failed(); ++i)  // few: an insertion sort
+    for (std::size_t k = i; k > 1 && before(waves[k], waves[k - 1]); --k) std::swap(waves[k], waves[k - 1]);
+  return waves;
+}
+
 std::vector<std::uint32_t> CornerOrder::sequence(std::size_t c) {
   const Tied tied = tied_at(c);
   if (ladder_.failed()) return {};
@@ -161,6 +175,10 @@ std::vector<std::uint32_t> CornerOrder::sequence(std::size_t c) {
   if (sorted.empty()) {
     ladder_.fail(Predicate::corner_order, "no wave attains corner " + std::to_string(c));
     return {};
+  }
+  if (!tied.right && !tied.left && sorted.size() > 1) {
+    sorted = from_outgoing(c, std::move(sorted));
+    if (ladder_.failed()) return {};
   }
   const std::optional<bool> open = shadow_is_open(c, tied);
   if (!open) return {};

@@ -94,7 +94,7 @@ bool OutlineWalk::walk_side(std::size_t side, std::uint32_t last) {
     result_.outline.push_back({static_cast<std::uint8_t>(side), contenders_[current].site, from_node, to_node});
     if (ends) {
       if (current == last) return true;
-      ladder_.fail(Predicate::edge_tie, describe(side, {current, last, FacetTessellation::kNoSite, 0, std::nullopt}, "the walk ends in another wave than the corner's"));
+      ladder_.fail(Predicate::edge_tie, describe(side, {current, last, FacetTessellation::kNoSite, 0, false, std::nullopt}, "the walk ends in another wave than the corner's"));
       return false;
     }
     from_node = to_node;
@@ -138,7 +138,7 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   const int leaves = contenders_.tangent_end(from, to), arrives = contenders_.tangent_end(to, from);
   if (leaves == Contenders::kNotTangent && arrives == Contenders::kNotTangent) {
     if (contenders_.eclipses(from, to) || contenders_.eclipses(to, from)) return std::nullopt;
-    const Event event{from, to, FacetTessellation::kNoSite, 0, std::nullopt};
+    const Event event{from, to, FacetTessellation::kNoSite, 0, false, std::nullopt};
     if (tie_is_at_corner(side, event)) return std::nullopt;
     return event;
   }
@@ -151,7 +151,7 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   if (last_ray != relay_takes_over) return std::nullopt;
   const std::uint8_t corner = contenders_[relay].corner;
   if (corner == side || corner == (side + 1) % 3) return std::nullopt;  // the ray meets this side in its corner only
-  return Event{from, to, contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end), std::nullopt};
+  return Event{from, to, contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end), false, std::nullopt};
 }
 
 /// Two waves that tie at an end of the side by identity: whether the place where `to` overtakes `from` is that end.
@@ -202,7 +202,12 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
       if (event.ray == to.cone_site[end] && event.ray_end == end) continue;  // on that ray by identity
       const MaybeSign inside = maybe_sign(cone_side(numbers, to, end, p));
       if (inside == Sign::negative) return Answer::no;
-      if (inside == Sign::zero) on_ray = true;
+      if (inside == Sign::zero) {  // seen from here on, or up to here: the side of the ray is linear along the side of the facet
+        const MaybeSign ahead = maybe_sign(cone_side(numbers, to, end, numbers.side[(side + 1) % 3].origin));
+        if (ahead == Sign::negative) return Answer::no;
+        if (!ahead) open = true;
+        on_ray = true;
+      }
       if (!inside) open = true;
     }
   }
@@ -214,19 +219,16 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
       return Answer::no;
   }
   if (open) return std::nullopt;
-  return on_ray ? Answer::degenerate : Answer::yes;
+  return on_ray ? Answer::on_ray : Answer::yes;
 }
 
-std::optional<bool> OutlineWalk::happens(std::size_t side, const Event& event, const std::optional<Event>& previous) {
+std::optional<bool> OutlineWalk::happens(std::size_t side, Event& event, const std::optional<Event>& previous) {
   const auto answer = ladder_.decide(
       Predicate::edge_tie, [&](const auto& numbers) { return happens_in(numbers, side, event, previous); },
       [&] { return describe(side, event, "overtaking"); });
   if (!answer) return std::nullopt;
-  if (*answer == Answer::degenerate) {
-    ladder_.fail(Predicate::edge_tie, describe(side, event, "a tie on the boundary ray of a cone"));
-    return std::nullopt;
-  }
-  return *answer == Answer::yes;
+  event.on_ray = *answer == Answer::on_ray;
+  return *answer != Answer::no;
 }
 
 MaybeSign OutlineWalk::compare(std::size_t side, const Event& a, const Event& b) {
@@ -241,6 +243,11 @@ MaybeSign OutlineWalk::compare(std::size_t side, const Event& a, const Event& b)
 bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
   std::vector<std::uint32_t> ahead{tied[0].to, tied[0].from};
   if (tied.size() > 1) {
+    for (const Event& event : tied) {
+      if (!event.on_ray) continue;  // beside the ray it is not seen: the order by directions alone does not hold
+      ladder_.fail(Predicate::edge_tie, describe(side, event, "a tie of several waves on the boundary ray of a cone"));
+      return false;
+    }
     auto order = order_inward(side, tied);
     if (!order) return false;
     ahead = std::move(*order);

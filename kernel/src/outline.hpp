@@ -31,13 +31,14 @@ class OutlineWalk {
     std::uint32_t from, to;
     std::uint32_t ray = FacetTessellation::kNoSite;  ///< site whose boundary ray crosses the side there, if they are tangent
     std::uint8_t ray_end = 0;
+    bool on_ray = false;  ///< the point lies on a boundary ray of `to`, which sees what comes after it
     std::optional<predicates::SideTie<FacetWaves::F>> filtered;  ///< its parameter in the filter's numbers, once asked for
   };
   /// Where a contender may be seen along a side: certainly nowhere else.
   struct Stretch {
     double low = 0, high = 1;
   };
-  enum class Answer { no, yes, degenerate };
+  enum class Answer { no, yes, on_ray };
 
   bool pass_corner(std::size_t c, const std::vector<std::uint32_t>& sequence);
   bool walk_side(std::size_t side, std::uint32_t last);
@@ -46,7 +47,7 @@ class OutlineWalk {
   void find_stretches();
   std::optional<Event> candidate(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
-  std::optional<bool> happens(std::size_t side, const Event& event, const std::optional<Event>& previous);
+  std::optional<bool> happens(std::size_t side, Event& event, const std::optional<Event>& previous);
   template <class NT>
   std::optional<Answer> happens_in(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event,
                                    const std::optional<Event>& previous) const;
