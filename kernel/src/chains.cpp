@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gvd/kernel/error.hpp"
+#include "gvd/predicates/plane.hpp"
 
 namespace gvd::kernel::subdivision {
 namespace {
@@ -53,7 +54,7 @@ class Tracer {
   }
 
  private:
-  Role role_of(std::uint32_t p) const {
+  Role role_of(std::uint32_t p) {
     const auto ends = s_.ends_at(p);
     if (ends.empty()) return Role::none;
     const Place& place = s_.places[p];
@@ -65,7 +66,11 @@ class Tracer {
     for (std::size_t side = 0; side < 2; ++side)
       if (label_beside(s_, in, side) != label_beside(s_, out, side))
         return contradiction(p, "the label sets beside a GVD edge are exchanged");
-    if (!continues(p, in, out, 0) || !continues(p, in, out, 1)) return Role::break_point;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (continues(p, in, out, side)) continue;
+      if (!proved_different(p, in, out, side)) result_.doubts.push_back("whether the conic changes at " + describe(p));
+      return Role::break_point;
+    }
     return inside_input_face(in_, place) ? Role::erased : Role::crossing;
   }
 
@@ -97,6 +102,37 @@ class Tracer {
     if (a.facet == b.facet) return false;
     const HalfedgeId h = place.halfedge, twin = in_.refined.twin(h);
     return EdgeJoiner::same_wave(in_, fa.face == Mesh::face(h) ? h : twin, fa, a.site, fb, b.site);
+  }
+
+  /// Whether the waves on one side before and after a place certainly have different images: other roots, or other distances from the ends of
+  /// the edge that the facets share. At a vertex that is not flat, windows that pass it on either side are turned against each other.
+  bool proved_different(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
+    using NT = FacetWaves::DD;
+    using predicates::operator-;
+    const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];
+    const Place& place = s_.places[p];
+    if (s_.facets[a.facet].waves == nullptr || s_.facets[b.facet].waves == nullptr) return false;
+    FacetWaves &wa = *s_.facets[a.facet].waves, &wb = *s_.facets[b.facet].waves;
+    if (wa.sites[a.site].root != wb.sites[b.site].root) return true;
+    if (place.kind == Place::Kind::vertex)
+      return !is_flat(s_.facets[a.facet], place.vertex) && !descends(wa.sites[a.site].window, wb.sites[b.site].window) &&
+             !descends(wb.sites[b.site].window, wa.sites[a.site].window);
+    const auto square_from = [](FacetWaves& waves, std::uint32_t site, VertexId v) {
+      const auto k = static_cast<std::size_t>(std::find(waves.corner.begin(), waves.corner.end(), v) - waves.corner.begin());
+      const auto& frame = waves.frame(NT());
+      return squared_norm(waves.site(site, NT()).image - predicates::corner_point(frame, k)) * square(frame.length);
+    };
+    for (const VertexId v : wa.corner) {
+      if (std::find(wb.corner.begin(), wb.corner.end(), v) == wb.corner.end()) continue;
+      const auto sign = maybe_sign(square_from(wa, a.site, v) - square_from(wb, b.site, v));
+      if (sign && *sign != robust::Sign::zero) return true;
+    }
+    return false;
+  }
+
+  bool descends(WindowId child, WindowId ancestor) const {
+    while (child != kNone && child != ancestor) child = in_.window(child).parent;
+    return child != kNone;
   }
 
   /// Round a flat vertex a wave that comes in once is one image, though other windows carry it on the two sides.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "subdivision.hpp"
@@ -32,6 +33,7 @@ struct Chain {
 struct Chains {
   std::vector<Role> role;  ///< per place
   std::vector<Chain> chains;
+  std::vector<std::string> doubts;  ///< places where it could not be proved whether the conic changes
 };
 
 inline std::uint32_t from_place(const Subdivision& s, DirectedLink l) {

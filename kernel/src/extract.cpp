@@ -21,6 +21,7 @@ class Extraction {
   Diagram run() {
     s_ = subdivide(in_, decisions_);
     chains_ = trace(in_, s_, all_decided(decisions_));
+    for (const std::string& doubt : chains_.doubts) predicates::undecided(decisions_, predicates::Predicate::location, doubt);
     list_undecided_faces();
     if (all_decided(decisions_) && d_.undecided_faces.empty()) check_euler(in_, s_, chains_);
     d_.label_sets = in_.label_sets;
