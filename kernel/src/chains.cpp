@@ -68,6 +68,7 @@ class Tracer {
         return contradiction(p, "the label sets beside a GVD edge are exchanged");
     for (std::size_t side = 0; side < 2; ++side) {
       if (continues(p, in, out, side)) continue;
+      if (proved_same(p, in, out, side)) continue;
       if (!proved_different(p, in, out, side)) result_.doubts.push_back("whether the conic changes at " + describe(p));
       return Role::break_point;
     }
@@ -128,6 +129,34 @@ class Tracer {
       if (sign && *sign != robust::Sign::zero) return true;
     }
     return false;
+  }
+
+  /// Whether they have one image by algebra: the same root, and the same distances from the ends of the edge that the facets share, on the
+  /// same side of it. Offered only where the strips are of one square class.
+  bool proved_same(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
+    using predicates::operator-;
+    const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];
+    if (s_.places[p].kind == Place::Kind::vertex || s_.facets[a.facet].waves == nullptr || s_.facets[b.facet].waves == nullptr) return false;
+    FacetWaves &wa = *s_.facets[a.facet].waves, &wb = *s_.facets[b.facet].waves;
+    if (wa.sites[a.site].root != wb.sites[b.site].root || wa.exact_frame() == nullptr || wb.exact_frame() == nullptr) return false;
+    std::vector<VertexId> shared;
+    for (const VertexId v : wa.corner)
+      if (std::find(wb.corner.begin(), wb.corner.end(), v) != wb.corner.end()) shared.push_back(v);
+    if (shared.size() < 2) return false;
+    const auto corner = [](FacetWaves& waves, VertexId v) {
+      const auto k = static_cast<std::size_t>(std::find(waves.corner.begin(), waves.corner.end(), v) - waves.corner.begin());
+      return predicates::corner_point(*waves.exact_frame(), k);
+    };
+    const auto square_from = [&](FacetWaves& waves, std::uint32_t site, VertexId v) {
+      return squared_norm(waves.exact_site(site)->image - corner(waves, v)) * square(waves.exact_frame()->length);
+    };
+    const auto beside = [&](FacetWaves& waves, std::uint32_t site) {
+      const auto origin = corner(waves, shared[0]);
+      return maybe_sign(cross(corner(waves, shared[1]) - origin, waves.exact_site(site)->image - origin));
+    };
+    for (std::size_t i = 0; i < 2; ++i)
+      if (maybe_sign(square_from(wa, a.site, shared[i]) - square_from(wb, b.site, shared[i])) != robust::Sign::zero) return false;
+    return beside(wa, a.site).has_value() && beside(wa, a.site) == beside(wb, b.site);
   }
 
   bool descends(WindowId child, WindowId ancestor) const {
