@@ -63,6 +63,22 @@ MaybeSign CornerOrder::turn(std::size_t c, std::uint32_t p, std::uint32_t q) {
   return std::nullopt;
 }
 
+/// The same for waves whose images may lie on opposite sides of the corner: half a turn counts as a turn to the left.
+MaybeSign CornerOrder::turn_or_half(std::size_t c, std::uint32_t p, std::uint32_t q) {
+  const auto test = [&](const auto& numbers) -> MaybeSign {
+    const auto& at = numbers.side[c].origin;
+    const auto to_p = numbers.sites[contenders_[p].site]->image - at, to_q = numbers.sites[contenders_[q].site]->image - at;
+    const MaybeSign sign = maybe_sign(cross(to_p, to_q));
+    if (sign != Sign::zero) return sign;
+    const MaybeSign same_way = maybe_sign(dot(to_p, to_q));
+    return same_way == Sign::negative ? MaybeSign(Sign::positive) : same_way ? sign : std::nullopt;
+  };
+  const MaybeSign sign = ladder_.decide(Predicate::corner_order, test, [&] { return describe(c, p, q, "turn"); });
+  if (sign != Sign::zero) return sign;
+  ladder_.fail(Predicate::corner_order, describe(c, p, q, "equal directions"));
+  return std::nullopt;
+}
+
 /// Whether the ray from p's image through corner c goes on strictly on the inner side of the line of the far side of the corner's angle.
 MaybeSign CornerOrder::ray_enters(std::size_t c, std::uint32_t p, Direction far_side) {
   const auto test = [&](const auto& numbers) {
@@ -90,7 +106,7 @@ CornerOrder::Tied CornerOrder::tied_at(std::size_t c) {
     } else {
       auto& middle = tied.middle;
       auto at = middle.begin();
-      while (at != middle.end() && turn(c, *at, i) == Sign::positive) ++at;
+      while (at != middle.end() && turn_or_half(c, *at, i) == Sign::positive) ++at;
       middle.insert(at, i);
     }
   }
@@ -155,8 +171,8 @@ std::vector<std::uint32_t> CornerOrder::from_outgoing(std::size_t c, std::vector
   for (std::size_t i = 1; i < waves.size(); ++i)
     if (nearer_beside(c, Direction::outgoing, waves[i], waves[0]) == Sign::positive) std::swap(waves[0], waves[i]);
   const auto before = [&](std::uint32_t p, std::uint32_t q) {
-    const bool p_near = turn(c, waves[0], p) == Sign::positive, q_near = turn(c, waves[0], q) == Sign::positive;
-    return p_near != q_near ? p_near : turn(c, p, q) == Sign::positive;
+    const bool p_near = turn_or_half(c, waves[0], p) == Sign::positive, q_near = turn_or_half(c, waves[0], q) == Sign::positive;
+    return p_near != q_near ? p_near : turn_or_half(c, p, q) == Sign::positive;
   };
   for (std::size_t i = 2; i < waves.size() && !ladder_.failed(); ++i)  // few: an insertion sort
     for (std::size_t k = i; k > 1 && before(waves[k], waves[k - 1]); --k) std::swap(waves[k], waves[k - 1]);

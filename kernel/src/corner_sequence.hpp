@@ -31,6 +31,7 @@ class CornerOrder {
   Tied tied_at(std::size_t c);
   std::optional<bool> shadow_is_open(std::size_t c, const Tied& tied);
   robust::MaybeSign turn(std::size_t c, std::uint32_t p, std::uint32_t q);
+  robust::MaybeSign turn_or_half(std::size_t c, std::uint32_t p, std::uint32_t q);
   robust::MaybeSign ray_enters(std::size_t c, std::uint32_t p, Direction far_side);
   std::vector<std::uint32_t> from_outgoing(std::size_t c, std::vector<std::uint32_t> waves);
   std::vector<std::uint32_t> envelope(std::size_t c, const std::vector<std::uint32_t>& sorted, const Tied& tied);
