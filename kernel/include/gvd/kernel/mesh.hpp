@@ -75,7 +75,7 @@ class Mesh {
   bool flipped(FaceId f) const noexcept { return flipped_[f] != 0; }
   std::uint32_t flipped_count() const noexcept;
 
-  // ---- refinement at sources (kernel/refine.hpp) ----
+  // ---- refinement at sources (kernel/source.hpp) ----
   /// Vertices below this number are those of the input.
   std::uint32_t input_vertex_count() const noexcept { return input_vertex_count_; }
   /// The face of the input mesh which this face is a part of (itself without refinement).
