@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contenders.hpp"
+#include "ring.hpp"
 
 namespace gvd::kernel {
 
@@ -23,18 +24,6 @@ class CornerOrder {
   robust::MaybeSign nearer_beside(std::size_t c, Direction direction, std::uint32_t p, std::uint32_t q);
 
  private:
-  /// The attaining contenders by where they come from: right = over the outgoing side, left = over the incoming one.
-  struct Tied {
-    std::optional<std::uint32_t> own, right, left;
-    std::vector<std::uint32_t> middle;
-  };
-  Tied tied_at(std::size_t c);
-  std::optional<bool> shadow_is_open(std::size_t c, const Tied& tied);
-  robust::MaybeSign turn(std::size_t c, std::uint32_t p, std::uint32_t q);
-  robust::MaybeSign turn_or_half(std::size_t c, std::uint32_t p, std::uint32_t q);
-  robust::MaybeSign ray_enters(std::size_t c, std::uint32_t p, Direction far_side);
-  std::vector<std::uint32_t> from_outgoing(std::size_t c, std::vector<std::uint32_t> waves);
-  std::vector<std::uint32_t> envelope(std::size_t c, const std::vector<std::uint32_t>& sorted, const Tied& tied);
   std::string describe(std::size_t c, std::uint32_t p, std::uint32_t q, const char* what) const;
 
   FacetWaves& waves_;

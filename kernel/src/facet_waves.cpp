@@ -119,6 +119,7 @@ bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrival& arrival) co
   for (WindowId w = window; w != kNone; w = field_.windows[w].parent)
     if (field_.windows[w].dead()) return false;
   const VertexId root = field_.windows[window].root;
+  if (root == corner[side] || root == corner[(side + 1) % 3]) return false;  // the edge itself is the shorter way to its points
   const EdgeFrame<double>& frame = frames(3 * face + side);
   const Ball<double> weight = narrowed(resolution_.distance(root));
   arrival.window = window;

@@ -31,12 +31,14 @@ void Growth::run(const std::vector<Occurrence>& outline) {
   add_arc(a.contender, b.contender, a.node_after, b.node_after);
 }
 
+/// Growth closes the regions that meet in one vertex one after the other: between them, arcs have no length.
 void Growth::add_arc(std::uint32_t left, std::uint32_t right, std::uint32_t from, std::uint32_t to) {
+  if (from == to) return;
   result_.arcs.push_back({contenders_[left].site, contenders_[right].site, from, to, contenders_.tangent(left, right)});
 }
 
 std::uint32_t Growth::node_of(Found& vertex) {
-  if (vertex.is_used()) return vertex.id;
+  if (vertex.id != FacetTessellation::Piece::kNoNode) return vertex.id;
   vertex.id = static_cast<std::uint32_t>(result_.nodes.size());
   result_.nodes.push_back(vertex.node);
   return vertex.id;
@@ -82,6 +84,7 @@ std::optional<bool> Growth::try_close(std::uint32_t at) {
   const auto closes = closes_at(at, *vertex);
   if (!closes || !*closes) return closes;
   const std::uint32_t node = node_of(*vertex);
+  std::erase(vertex->open, j.contender);
   add_arc(i.contender, j.contender, i.node_after, node);
   add_arc(j.contender, k.contender, j.node_after, node);
   if (size_ == 3) {
@@ -99,7 +102,7 @@ std::optional<bool> Growth::closes_by_arc(std::uint32_t at) {
   const std::uint32_t i = open_[open_[at].previous].contender, j = open_[at].contender;
   const std::uint32_t from = open_[open_[at].previous].node_after, to = open_[at].node_after;
   if (count_[j] > 1) return reaches(i, j, from, to, result_.nodes[to], i);
-  const auto touched = touches_another(i, j, j, {});
+  const auto touched = touches_another(i, j, j, nullptr);
   if (!touched) return std::nullopt;
   return !*touched;
 }
@@ -109,12 +112,12 @@ std::optional<bool> Growth::closes_by_arc(std::uint32_t at) {
 std::optional<bool> Growth::closes_at(std::uint32_t at, const Found& vertex) {
   const Open& open = open_[at];
   const std::uint32_t i = open_[open.previous].contender, j = open.contender, k = open_[open.next].contender;
-  if (!follow_each_other(vertex.ties, i, j, k)) return false;  // a region of no width lies between
+  if (!vertex.follows(i, j) || !vertex.follows(j, k)) return false;  // another region has a part there in between
   if (count_[i] == 1 && count_[j] == 1 && count_[k] == 1) return true;
   if (count_[j] == 1) {  // then every open vertex at j belongs to this stretch of its boundary
-    const auto before = touches_another(i, j, k, vertex.ties);
+    const auto before = touches_another(i, j, k, &vertex);
     if (!before || *before) return before ? std::optional(false) : std::nullopt;
-    const auto after = touches_another(j, k, i, vertex.ties);
+    const auto after = touches_another(j, k, i, &vertex);
     if (!after) return std::nullopt;
     return !*after;
   }
@@ -124,21 +127,13 @@ std::optional<bool> Growth::closes_at(std::uint32_t at, const Found& vertex) {
   return reaches(j, k, open.node_after, none, vertex.node, i);
 }
 
-bool Growth::follow_each_other(const std::vector<std::uint32_t>& cyclic, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-  const std::size_t n = cyclic.size();
-  for (std::size_t m = 0; m < n; ++m)
-    if (cyclic[m] == i) return cyclic[(m + 1) % n] == j && cyclic[(m + 2) % n] == k;
-  return false;
-}
-
-/// Whether the arc with a on its left and b on its right ends anywhere in a vertex with a third region that is not used yet, other than
-/// `third` and those in `ties`.
-std::optional<bool> Growth::touches_another(std::uint32_t a, std::uint32_t b, std::uint32_t third, const std::vector<std::uint32_t>& ties) {
+/// Whether the arc with a on its left and b on its right ends anywhere in an open vertex with a third region, other than `third` and `but`.
+std::optional<bool> Growth::touches_another(std::uint32_t a, std::uint32_t b, std::uint32_t third, const Found* but) {
   for (const std::uint32_t other : listed_) {
-    if (other == a || other == b || other == third || std::find(ties.begin(), ties.end(), other) != ties.end()) continue;
+    if (other == a || other == b || other == third) continue;
     const Found* vertex = vertices_.find(a, b, other);
     if (vertex == nullptr) return std::nullopt;
-    if (vertex->exists && !vertex->is_used()) return true;
+    if (vertex != but && vertex->follows(a, b)) return true;
   }
   return false;
 }
@@ -162,7 +157,7 @@ std::optional<bool> Growth::reaches(std::uint32_t a, std::uint32_t b, std::uint3
     if (other == a || other == b || other == third) continue;
     const Found* vertex = vertices_.find(a, b, other);
     if (vertex == nullptr) return std::nullopt;
-    if (!vertex->exists || vertex->is_used()) continue;
+    if (!vertex->follows(a, b)) continue;
     const auto stops = stops_at(vertex->node);
     if (!stops || *stops) return stops ? std::optional(false) : std::nullopt;
   }

@@ -31,8 +31,7 @@ class Growth {
   std::optional<bool> try_close(std::uint32_t at);
   std::optional<bool> closes_by_arc(std::uint32_t at);
   std::optional<bool> closes_at(std::uint32_t at, const Found& vertex);
-  static bool follow_each_other(const std::vector<std::uint32_t>& cyclic, std::uint32_t i, std::uint32_t j, std::uint32_t k);
-  std::optional<bool> touches_another(std::uint32_t a, std::uint32_t b, std::uint32_t third, const std::vector<std::uint32_t>& ties);
+  std::optional<bool> touches_another(std::uint32_t a, std::uint32_t b, std::uint32_t third, const Found* but);
   std::optional<bool> reaches(std::uint32_t a, std::uint32_t b, std::uint32_t from, std::uint32_t to, const Node& end, std::uint32_t third);
   robust::MaybeSign along_arc(std::uint32_t a, std::uint32_t b, const Node& from, const Node& to);
   void remove(std::uint32_t at);

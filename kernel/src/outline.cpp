@@ -86,22 +86,23 @@ bool OutlineWalk::walk_side(std::size_t side, std::uint32_t last) {
   std::uint32_t from_node = Piece::kNoNode;
   for (;;) {
     const std::uint32_t current = list_.back().contender;
-    const auto events = next_events(side, current, previous);
+    auto events = next_events(side, current, previous);
     if (!events) return false;
-    const bool ends = events->empty();
-    if (!ends && !pass_event(side, *events)) return false;
-    const std::uint32_t to_node = ends ? Piece::kNoNode : static_cast<std::uint32_t>(result_.nodes.size() - 1);
-    result_.outline.push_back({static_cast<std::uint8_t>(side), contenders_[current].site, from_node, to_node});
-    if (ends) {
-      if (current == last) return true;
-      ladder_.fail(Predicate::edge_tie, describe(side, {current, last, FacetTessellation::kNoSite, 0, false, std::nullopt}, "the walk ends in another wave than the corner's"));
-      return false;
+    if (!complete(side, current, last, previous, *events)) return false;
+    if (events->empty()) {
+      result_.outline.push_back({static_cast<std::uint8_t>(side), contenders_[current].site, from_node, Piece::kNoNode});
+      return true;
     }
-    from_node = to_node;
+    const std::size_t nodes = result_.nodes.size();
+    if (!pass_event(side, *events)) return false;
+    if (result_.nodes.size() > nodes) {
+      const auto to_node = static_cast<std::uint32_t>(nodes);
+      result_.outline.push_back({static_cast<std::uint8_t>(side), contenders_[current].site, from_node, to_node});
+      from_node = to_node;
+    }
     previous = (*events)[0];
-    previous->to = list_.back().contender;
     for (const Event& event : *events)
-      if (event.to == previous->to) previous = event;
+      if (event.to == list_.back().contender) previous = event;
   }
 }
 
@@ -131,6 +132,42 @@ std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::siz
     if (first.size() == 1 && event->filtered) high = std::min(1.0, event->filtered->t.upper());
   }
   return first;
+}
+
+/// Looks after the view of `from` itself: if it ends before the events found (or before the corner, which `last` comes to), the place where it
+/// does is the next event; if it ends in their very point, that is noted.
+bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t last, const std::optional<Event>& previous,
+                           std::vector<Event>& events) {
+  if (events.empty() && from == last) return true;
+  for (std::size_t end = 0; contenders_[from].has_cone && end < 2; ++end) {
+    const std::uint32_t ray = contenders_[from].cone_site[end];
+    if (!events.empty() && events[0].ray == ray && events[0].ray_end == end) continue;
+    const MaybeSign seen = ladder_.decide(
+        Predicate::edge_tie,
+        [&](const auto& numbers) -> MaybeSign {
+          const auto& line = numbers.side[side];
+          if (events.empty()) return maybe_sign(cone_side(numbers, contenders_[from], end, numbers.side[(side + 1) % 3].origin));
+          const auto tie = parameter(numbers, side, events[0]);
+          if (tie.existence != Existence::proved) return std::nullopt;
+          return maybe_sign(cone_side(numbers, contenders_[from], end, predicates::point_at(line, tie.t)));
+        },
+        [&] { return "the end of the view of " + contenders_.name(from) + " on side " + std::to_string(side); });
+    if (!seen) return false;
+    if (*seen == Sign::positive) continue;
+    if (*seen == Sign::zero && !events.empty()) events[0].on_ray = true;
+    if (*seen == Sign::negative) {
+      Event view_ends{from, from, ray, static_cast<std::uint8_t>(end), true, std::nullopt};
+      view_ends.filtered = parameter(ladder_.filter(), side, view_ends);
+      const auto real = happens(side, view_ends, previous);
+      if (!real) return false;
+      view_ends.on_ray = true;
+      if (*real) events = {view_ends};
+    }
+  }
+  if (!events.empty()) return true;
+  ladder_.fail(Predicate::edge_tie, "the walk ends in " + contenders_.name(from) + " on side " + std::to_string(side) + ", not in the corner's " +
+                                        contenders_.name(last));
+  return false;
 }
 
 /// What would have to happen for `to` to take over from `from` on the side, if identity does not exclude it.
@@ -202,12 +239,7 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
       if (event.ray == to.cone_site[end] && event.ray_end == end) continue;  // on that ray by identity
       const MaybeSign inside = maybe_sign(cone_side(numbers, to, end, p));
       if (inside == Sign::negative) return Answer::no;
-      if (inside == Sign::zero) {  // seen from here on, or up to here: the side of the ray is linear along the side of the facet
-        const MaybeSign ahead = maybe_sign(cone_side(numbers, to, end, numbers.side[(side + 1) % 3].origin));
-        if (ahead == Sign::negative) return Answer::no;
-        if (!ahead) open = true;
-        on_ray = true;
-      }
+      if (inside == Sign::zero) on_ray = true;
       if (!inside) open = true;
     }
   }
@@ -240,110 +272,41 @@ MaybeSign OutlineWalk::compare(std::size_t side, const Event& a, const Event& b)
   return ladder_.decide(Predicate::edge_tie, test, [&] { return describe(side, a, "order") + " and " + contenders_.name(b.to); });
 }
 
+/// An event on a boundary ray, or several at one point, leave the order of the regions open: nothing but all that tie there tells it.
 bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
-  std::vector<std::uint32_t> ahead{tied[0].to, tied[0].from};
-  if (tied.size() > 1) {
-    for (const Event& event : tied) {
-      if (!event.on_ray) continue;  // beside the ray it is not seen: the order by directions alone does not hold
-      ladder_.fail(Predicate::edge_tie, describe(side, event, "a tie of several waves on the boundary ray of a cone"));
-      return false;
-    }
-    auto order = order_inward(side, tied);
-    if (!order) return false;
-    ahead = std::move(*order);
-  }
-  const auto defining = std::find_if(tied.begin(), tied.end(), [&](const Event& event) { return event.to == ahead[0]; });
-  if (defining == tied.end()) {
-    ladder_.fail(Predicate::edge_tie, describe(side, tied[0], "the order of waves that tie at a point"));
-    return false;
-  }
+  const Event& first = tied[0];
   Node node;
   node.kind = Node::Kind::side;
   node.where = static_cast<std::uint8_t>(side);
+  const bool view_ends = first.to == first.from;
+  if (!view_ends) node.defining = {contenders_[first.from].site, contenders_[first.to].site, FacetTessellation::kNoSite};
+  node.ray = first.ray;
+  node.ray_end = first.ray_end;
+  std::vector<std::uint32_t> ahead{first.to, first.from};
+  if (tied.size() > 1 || first.on_ray) {
+    std::vector<std::uint32_t> waves{first.from};
+    for (const Event& event : tied)
+      if (event.to != first.from) waves.push_back(event.to);
+    Ring ring(waves_, contenders_, ladder_);
+    for (std::uint32_t other = 0; view_ends && other < contenders_.size(); ++other)
+      if (other != first.from && ring.ties(node, first.from, other) == true) waves.push_back(other);
+    if (!ladder_.failed()) ahead = ring.regions(node, waves);
+    if (ladder_.failed()) return false;
+    if (ahead.back() != first.from) {
+      ladder_.fail(Predicate::edge_tie, describe(side, first, "the order of waves that tie at a point"));
+      return false;
+    }
+  }
+  if (ahead.size() == 1) return true;
   for (const std::uint32_t wave : ahead) node.sites.push_back(contenders_[wave].site);
-  node.defining = {contenders_[defining->from].site, contenders_[defining->to].site, FacetTessellation::kNoSite};
-  node.ray = defining->ray;
-  node.ray_end = defining->ray_end;
   const auto& numbers = ladder_.filter();
-  node.t = parameter(numbers, side, *defining).t;
+  node.t = node_parameter(waves_, numbers, node);
   const auto p = predicates::point_at(numbers.side[side], node.t);
   node.x = p.x;
   node.y = p.y;
   const std::uint32_t id = add_node(std::move(node));
   for (std::size_t i = ahead.size() - 1; i-- > 0;) enter(id, ahead[i]);
   return true;
-}
-
-/// Several waves tie at one point of the side: those that are nearest in some direction into the facet, counter-clockwise from the direction in
-/// which the outline goes on. In direction e, the one whose unit vector u to its image has the greatest e.u.
-std::optional<std::vector<std::uint32_t>> OutlineWalk::order_inward(std::size_t side, const std::vector<Event>& tied) {
-  std::vector<std::uint32_t> waves{tied[0].from};
-  for (const Event& event : tied) waves.push_back(event.to);
-  const auto what = [&] { return describe(side, tied[0], "the order of waves that tie at a point"); };
-  for (const std::uint32_t p : waves) {
-    for (const std::uint32_t q : waves) {
-      if (contenders_.tangent_end(p, q) == Contenders::kNotTangent) continue;  // their directions are one, so directions cannot tell
-      ladder_.fail(Predicate::edge_tie, what());
-      return std::nullopt;
-    }
-  }
-  // (u_p - u_q) times a positive factor, in the coordinates (along the side, into the facet)
-  const auto difference = [&](const auto& numbers, std::uint32_t p, std::uint32_t q) {
-    const auto& line = numbers.side[side];
-    const auto at = predicates::point_at(line, parameter(numbers, side, tied[0]).t);
-    const auto to_p = numbers.sites[contenders_[p].site]->image - at, to_q = numbers.sites[contenders_[q].site]->image - at;
-    const auto rp = sqrt(squared_norm(to_p)), rq = sqrt(squared_norm(to_q));
-    using Point = std::decay_t<decltype(to_p)>;
-    const Point d{to_p.x * rq - to_q.x * rp, to_p.y * rq - to_q.y * rp};
-    return Point{dot(line.direction, d), cross(line.direction, d)};
-  };
-  const auto along = [&](std::uint32_t p, std::uint32_t q, bool inward) {
-    return ladder_.decide(
-        Predicate::edge_tie,
-        [&](const auto& numbers) {
-          const auto d = difference(numbers, p, q);
-          return maybe_sign(inward ? d.y : d.x);
-        },
-        what);
-  };
-  // The nearest in the direction of the side, by the direction into the facet if equal.
-  std::uint32_t current = waves[0];
-  for (std::size_t i = 1; i < waves.size(); ++i) {
-    MaybeSign better = along(waves[i], current, false);
-    if (better == Sign::zero) better = along(waves[i], current, true);
-    if (!better) return std::nullopt;
-    if (*better == Sign::positive) current = waves[i];
-  }
-  std::vector<std::uint32_t> order{current};
-  // Turning counter-clockwise, q takes over from p in the direction u_q - u_p turned by a right angle clockwise: (y, -x).
-  for (;;) {
-    std::optional<std::uint32_t> next;
-    for (const std::uint32_t q : waves) {
-      if (q == current || along(current, q, false) != Sign::positive) {
-        if (ladder_.failed()) return std::nullopt;
-        continue;
-      }
-      MaybeSign sooner = Sign::positive;
-      if (next) {
-        sooner = ladder_.decide(
-            Predicate::edge_tie,
-            [&](const auto& numbers) {
-              return maybe_sign(cross(difference(numbers, q, current), difference(numbers, *next, current)));
-            },
-            what);
-      }
-      if (!sooner) return std::nullopt;
-      if (*sooner == Sign::positive) next = q;
-    }
-    if (!next) break;
-    current = *next;
-    order.push_back(current);
-  }
-  if (order.back() != tied[0].from) {
-    ladder_.fail(Predicate::edge_tie, what());
-    return std::nullopt;
-  }
-  return order;
 }
 
 }  // namespace gvd::kernel

@@ -26,12 +26,12 @@ class OutlineWalk {
   std::vector<Occurrence> walk();
 
  private:
-  /// A place on a side where `to` takes over from `from`.
+  /// A place on a side where `to` takes over from `from`; or, if they are one, where the view of `from` ends.
   struct Event {
     std::uint32_t from, to;
     std::uint32_t ray = FacetTessellation::kNoSite;  ///< site whose boundary ray crosses the side there, if they are tangent
     std::uint8_t ray_end = 0;
-    bool on_ray = false;  ///< the point lies on a boundary ray of `to`, which sees what comes after it
+    bool on_ray = false;  ///< the point lies on a boundary ray of `to` or `from`, other than `ray`
     std::optional<predicates::SideTie<FacetWaves::F>> filtered;  ///< its parameter in the filter's numbers, once asked for
   };
   /// Where a contender may be seen along a side: certainly nowhere else.
@@ -54,7 +54,7 @@ class OutlineWalk {
   template <class NT>
   predicates::SideTie<NT> parameter(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event) const;
   robust::MaybeSign compare(std::size_t side, const Event& a, const Event& b);
-  std::optional<std::vector<std::uint32_t>> order_inward(std::size_t side, const std::vector<Event>& tied);
+  bool complete(std::size_t side, std::uint32_t from, std::uint32_t last, const std::optional<Event>& previous, std::vector<Event>& events);
 
   std::uint32_t add_node(FacetTessellation::Node node);
   void enter(std::uint32_t node, std::uint32_t contender);

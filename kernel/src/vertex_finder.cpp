@@ -21,18 +21,25 @@ void BisectorVertices::set_rivals(const std::vector<std::uint32_t>& rivals) {
   remembered_.assign(rivals_.size() * rivals_.size() * rivals_.size(), 0);
 }
 
-BisectorVertices::Found* BisectorVertices::find(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-  // The same vertex whatever the turn of the triple: begin with the lowest.
-  while (i > j || i > k) {
+std::int32_t& BisectorVertices::remembered(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+  while (i > j || i > k) {  // the same vertex whatever the turn of the triple: begin with the lowest
     std::swap(i, j);
     std::swap(j, k);
   }
   const std::size_t n = rivals_.size();
-  std::int32_t& entry = remembered_[(rank_[i] * n + rank_[j]) * n + rank_[k]];
+  return remembered_[(rank_[i] * n + rank_[j]) * n + rank_[k]];
+}
+
+BisectorVertices::Found* BisectorVertices::find(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+  std::int32_t& entry = remembered(i, j, k);
   if (entry == 0) {
     found_.emplace_back();
     entry = static_cast<std::int32_t>(found_.size());
     if (const auto spec = triple(i, j, k)) examine(*spec, found_.back());
+    const auto ring = found_.back().open;
+    for (std::size_t a = 0; ring.size() > 3 && a < ring.size(); ++a)
+      for (std::size_t b = a + 1; b < ring.size(); ++b)
+        for (std::size_t c = b + 1; c < ring.size(); ++c) remembered(ring[a], ring[b], ring[c]) = static_cast<std::int32_t>(found_.size());
   }
   return ladder_.failed() ? nullptr : &found_[static_cast<std::size_t>(entry - 1)];
 }
@@ -125,7 +132,7 @@ BisectorVertices::Verdict BisectorVertices::test(const FacetNumbers<NT>& numbers
   if (t.on_ray && wave == t.parent && end == t.ray_end) return Verdict::pass;  // on the ray by identity
   const MaybeSign inside = maybe_sign(cone_side(numbers, contenders_[wave], end, p));
   if (!inside) return Verdict::open;
-  if (*inside == Sign::zero) return Verdict::degenerate;
+  if (*inside == Sign::zero) return Verdict::on_ray;
   return *inside == Sign::positive ? Verdict::pass : Verdict::reject;
 }
 
@@ -163,10 +170,7 @@ bool BisectorVertices::run_tests(const FacetNumbers<NT>& numbers, Stage stage, c
     ladder_.count(predicate_of(what), stage);
     if (verdict == Verdict::reject) return false;
     if (verdict == Verdict::tie) ties_.push_back(what - kRivals);
-    if (verdict == Verdict::degenerate) {
-      ladder_.fail(predicate_of(what), describe(t, what) + " passes through it");
-      return false;
-    }
+    if (verdict == Verdict::on_ray) on_boundary_ray_ = true;
   }
   pending_.resize(kept);
   return true;
@@ -175,6 +179,7 @@ bool BisectorVertices::run_tests(const FacetNumbers<NT>& numbers, Stage stage, c
 void BisectorVertices::examine(const Triple& t, Found& found) {
   pending_.clear();
   ties_.clear();
+  on_boundary_ray_ = false;
   for (std::uint32_t what = 0; what < kRivals; ++what) {
     const bool cone = what >= kCones;
     if (!cone || contenders_[t.waves[(what - kCones) / 2]].has_cone) pending_.push_back(what);
@@ -197,53 +202,45 @@ void BisectorVertices::examine(const Triple& t, Found& found) {
   }
   if (!holds) return;
 
-  found.exists = true;
-  found.ties = {t.waves[0], t.waves[1], t.waves[2]};
-  if (!ties_.empty() && !order_ties(t, found.ties)) return;
-  found.node.kind = FacetTessellation::Node::Kind::inside;
-  for (const std::uint32_t wave : found.ties) found.node.sites.push_back(contenders_[wave].site);
-  if (t.on_ray) {
-    found.node.defining = {contenders_[t.pivot].site, contenders_[t.other].site, FacetTessellation::kNoSite};
-    found.node.ray = contenders_[t.parent].cone_site[t.ray_end];
-    found.node.ray_end = t.ray_end;
-  } else {
-    for (std::size_t n = 0; n < 3; ++n) found.node.defining[n] = contenders_[t.waves[n]].site;
+  found.node = node_of(t);
+  found.open = {t.waves[0], t.waves[1], t.waves[2]};
+  if (!ties_.empty() || on_boundary_ray_) {
+    if (on_boundary_ray_ && !add_eclipsed_ties(t, found.node)) return;
+    found.open.insert(found.open.end(), ties_.begin(), ties_.end());
+    found.open = Ring(waves_, contenders_, ladder_).regions(found.node, found.open);
+    for (const std::uint32_t wave : t.waves)  // one of them may own no direction there
+      if (!found.has(wave)) found.open.clear();
   }
+  found.exists = !found.open.empty();
+  for (const std::uint32_t wave : found.open) found.node.sites.push_back(contenders_[wave].site);
   const auto p = node_point(waves_, numbers, found.node);
   found.node.x = p.x;
   found.node.y = p.y;
 }
 
-/// Inserts the waves that tie with the three (ties_) by direction: l lies between a and b iff the unit vectors u_a, u_l, u_b to the
-/// images are counter-clockwise on their circle.
-bool BisectorVertices::order_ties(const Triple& t, std::vector<std::uint32_t>& ties) {
-  for (const std::uint32_t wave : ties_) {
-    std::size_t at = 0;
-    for (std::size_t n = 0; n < ties.size() && at == 0; ++n) {
-      const std::array<std::uint32_t, 3> order{ties[n], wave, ties[(n + 1) % ties.size()]};
-      const auto test = [&](const auto& numbers) -> MaybeSign {
-        const auto vertex = construct(numbers, t);
-        if (vertex.existence != Existence::proved) return std::nullopt;
-        const auto p = vertex.p + numbers.sites[contenders_[t.pivot].site]->image;
-        std::array<std::decay_t<decltype(p)>, 3> u;
-        for (std::size_t m = 0; m < 3; ++m) {
-          const auto to = numbers.sites[contenders_[order[m]].site]->image - p;
-          const auto length = sqrt(squared_norm(to));
-          u[m] = {to.x / length, to.y / length};
-        }
-        return maybe_sign(predicates::orientation(u[0], u[1], u[2]));
-      };
-      const MaybeSign sign = ladder_.decide(Predicate::conflict, test, [&] { return describe(t, kRivals + wave); });
-      if (!sign) return false;
-      if (*sign == Sign::positive) at = n + 1;
-    }
-    if (at == 0) {
-      ladder_.fail(Predicate::conflict, describe(t, kRivals + wave) + ", seen in the direction of another wave");
-      return false;
-    }
-    ties.insert(ties.begin() + static_cast<std::ptrdiff_t>(at), wave);
+FacetTessellation::Node BisectorVertices::node_of(const Triple& t) const {
+  FacetTessellation::Node node;
+  node.kind = FacetTessellation::Node::Kind::inside;
+  if (t.on_ray) {
+    node.defining = {contenders_[t.pivot].site, contenders_[t.other].site, FacetTessellation::kNoSite};
+    node.ray = contenders_[t.parent].cone_site[t.ray_end];
+    node.ray_end = t.ray_end;
+  } else {
+    for (std::size_t n = 0; n < 3; ++n) node.defining[n] = contenders_[t.waves[n]].site;
   }
-  return true;
+  return node;
+}
+
+/// What starts on the way of one of the three is not nearer, so conflict() passes it; on a boundary ray it may tie.
+bool BisectorVertices::add_eclipsed_ties(const Triple& t, const FacetTessellation::Node& node) {
+  for (const std::uint32_t rival : rivals_) {
+    const auto eclipsed = [&](std::uint32_t own) { return own != rival && contenders_.eclipses(own, rival); };
+    const bool is_new = std::find(t.waves.begin(), t.waves.end(), rival) == t.waves.end() &&
+                        std::find(ties_.begin(), ties_.end(), rival) == ties_.end();
+    if (!is_new || std::none_of(t.waves.begin(), t.waves.end(), eclipsed)) continue;
+    if (Ring(waves_, contenders_, ladder_).ties(node, t.pivot, rival) == true) ties_.push_back(rival);
+  }
+  return !ladder_.failed();
 }
 
 }  // namespace gvd::kernel

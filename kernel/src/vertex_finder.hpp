@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <vector>
 
 #include "contenders.hpp"
+#include "ring.hpp"
 #include "gvd/kernel/node_point.hpp"
 
 namespace gvd::kernel {
@@ -14,10 +16,16 @@ class BisectorVertices {
  public:
   struct Found {
     bool exists = false;
-    FacetTessellation::Node node;     ///< sites: all that tie, counter-clockwise
-    std::vector<std::uint32_t> ties;  ///< the same as contenders, beginning with the first of the triple
+    FacetTessellation::Node node;     ///< sites: all whose regions meet there, counter-clockwise
+    std::vector<std::uint32_t> open;  ///< the same as contenders, as far as growth has not closed them there
     std::uint32_t id = FacetTessellation::Piece::kNoNode;  ///< in the result, once it is used there
-    bool is_used() const { return id != FacetTessellation::Piece::kNoNode; }
+    bool has(std::uint32_t contender) const { return std::find(open.begin(), open.end(), contender) != open.end(); }
+    /// Whether the region of b follows that of a, as yet.
+    bool follows(std::uint32_t a, std::uint32_t b) const {
+      for (std::size_t m = 0; exists && open.size() > 2 && m < open.size(); ++m)
+        if (open[m] == a) return open[(m + 1) % open.size()] == b;
+      return false;
+    }
   };
 
   BisectorVertices(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder)
@@ -26,7 +34,8 @@ class BisectorVertices {
   /// Only these contenders can conflict: the others own no area of the facet. To be called first.
   void set_rivals(const std::vector<std::uint32_t>& rivals);
 
-  /// The vertex with the regions of i, j, k counter-clockwise round it. Remembered. Null on failure. Pre: i, j, k are different rivals.
+  /// The vertex with the regions of i, j, k counter-clockwise round it, perhaps with others in between. Remembered, and one for all triples that
+  /// meet in one point. Null on failure. Pre: i, j, k are different rivals.
   Found* find(std::uint32_t i, std::uint32_t j, std::uint32_t k);
 
  private:
@@ -38,7 +47,7 @@ class BisectorVertices {
     std::uint32_t pivot = 0, other = 0, parent = 0;
     std::uint8_t ray_end = 0;
   };
-  enum class Verdict { pass, reject, open, tie, degenerate };
+  enum class Verdict { pass, reject, open, tie, on_ray };
   /// What has to hold: existence, then inside the three sides, in the cones of the three (two rays each), then not in conflict with a rival.
   static constexpr std::uint32_t kExistence = 0, kSides = 1, kCones = 4, kRivals = 10;
 
@@ -54,7 +63,9 @@ class BisectorVertices {
   template <class NT>
   Verdict conflict(const FacetNumbers<NT>& numbers, const Triple& triple, const predicates::BisectorVertex<NT>& vertex,
                    const predicates::PlanePoint<NT>& p, std::uint32_t rival) const;
-  bool order_ties(const Triple& triple, std::vector<std::uint32_t>& ties);
+  bool add_eclipsed_ties(const Triple& triple, const FacetTessellation::Node& node);
+  FacetTessellation::Node node_of(const Triple& triple) const;
+  std::int32_t& remembered(std::uint32_t i, std::uint32_t j, std::uint32_t k);
   static predicates::Predicate predicate_of(std::uint32_t what);
   std::string describe(const Triple& triple, std::uint32_t what) const;
 
@@ -66,6 +77,7 @@ class BisectorVertices {
   std::vector<std::int32_t> remembered_;  ///< per ordered triple of rivals: 0 unknown, else 1 + index in found_
   std::deque<Found> found_;              ///< pointers to them are handed out
   std::vector<std::uint32_t> pending_, ties_;
+  bool on_boundary_ray_ = false;  ///< the vertex being examined lies on one of the three's, other than by construction
 };
 
 }  // namespace gvd::kernel

@@ -1,0 +1,272 @@
+#include "ring.hpp"
+
+#include <algorithm>
+
+namespace gvd::kernel {
+namespace {
+
+using predicates::PlanePoint;
+using predicates::Predicate;
+using predicates::operator-;
+using robust::MaybeSign;
+using robust::Sign;
+using Node = FacetTessellation::Node;
+
+template <class NT>
+PlanePoint<NT> negated(const PlanePoint<NT>& v) {
+  return {-v.x, -v.y};
+}
+
+Predicate predicate_at(Node::Kind kind) {
+  return kind == Node::Kind::corner ? Predicate::corner_order : kind == Node::Kind::side ? Predicate::edge_tie : Predicate::conflict;
+}
+
+std::string place_name(const Node& node) {
+  const char* kind = node.kind == Node::Kind::corner ? "corner " : node.kind == Node::Kind::side ? "a point of side " : "a point inside";
+  return kind + (node.kind == Node::Kind::inside ? std::string() : std::to_string(node.where));
+}
+
+}  // namespace
+
+template <class Test>
+MaybeSign Ring::decide(const Test& test) {
+  return ladder_.decide(predicate_at(node_->kind), test, [&] {
+    std::string text = "the order round " + place_name(*node_) + " of";
+    for (const Wave& wave : tied_) text += " " + contenders_.name(wave.contender);
+    return text;
+  });
+}
+
+template <class NT>
+PlanePoint<NT> Ring::to_image(const FacetNumbers<NT>& numbers, std::uint32_t wave) const {
+  return numbers.sites[contenders_[tied_[wave].contender].site]->image - node_point(waves_, numbers, *node_);
+}
+
+/// The unit vector to the image of i minus that of j, times a positive factor. Waves of one root that tie have images at one distance.
+template <class NT>
+PlanePoint<NT> Ring::difference(const FacetNumbers<NT>& numbers, std::uint32_t i, std::uint32_t j) const {
+  const Contender &a = contenders_[tied_[i].contender], &b = contenders_[tied_[j].contender];
+  if (a.root == b.root) return numbers.sites[a.site]->image - numbers.sites[b.site]->image;
+  const PlanePoint<NT> to_i = to_image(numbers, i), to_j = to_image(numbers, j);
+  const NT ri = sqrt(squared_norm(to_i)), rj = sqrt(squared_norm(to_j));
+  return {to_i.x * rj - to_j.x * ri, to_i.y * rj - to_j.y * ri};
+}
+
+template <class NT>
+PlanePoint<NT> Ring::vector(const FacetNumbers<NT>& numbers, const Direction& d) const {
+  switch (d.kind) {
+    case Direction::Kind::side: return numbers.side[d.a].direction;
+    case Direction::Kind::back: return negated(numbers.side[d.a].direction);
+    case Direction::Kind::away: return negated(to_image(numbers, d.a));
+    case Direction::Kind::towards: return to_image(numbers, d.a);
+    case Direction::Kind::overtaking: break;
+  }
+  const PlanePoint<NT> gain = difference(numbers, d.b, d.a);
+  return {gain.y, -gain.x};
+}
+
+/// Whether the two are one line by identity: positive in the same sense, negative in the opposite one; zero if nothing is known.
+Sign Ring::same_line(const Direction& a, const Direction& b) const {
+  using Kind = Direction::Kind;
+  if (a == b) return Sign::positive;
+  if (a.kind == Kind::overtaking && b.kind == Kind::overtaking) return a.a == b.b && a.b == b.a ? Sign::negative : Sign::zero;
+  const auto to_an_image = [](Kind kind) { return kind == Kind::away || kind == Kind::towards; };
+  if (!to_an_image(a.kind) || !to_an_image(b.kind) || (a.a != b.a && same_[a.a * tied_.size() + b.a] <= 0)) return Sign::zero;
+  return a.kind == b.kind ? Sign::positive : Sign::negative;
+}
+
+MaybeSign Ring::turn(const Direction& a, const Direction& b) {
+  if (same_line(a, b) != Sign::zero) return Sign::zero;
+  return decide([&](const auto& numbers) { return maybe_sign(cross(vector(numbers, a), vector(numbers, b))); });
+}
+
+MaybeSign Ring::along(const Direction& a, const Direction& b) {
+  if (const Sign known = same_line(a, b); known != Sign::zero) return known;
+  return decide([&](const auto& numbers) { return maybe_sign(dot(vector(numbers, a), vector(numbers, b))); });
+}
+
+/// Where d lies counter-clockwise from `from`: 0 up to half a turn, 1 half a turn, 2 beyond it, 3 a full turn.
+std::optional<int> Ring::quadrant(const Direction& from, const Direction& d) {
+  const MaybeSign side = turn(from, d);
+  if (!side) return std::nullopt;
+  if (*side != Sign::zero) return *side == Sign::positive ? 0 : 2;
+  const MaybeSign same_way = along(from, d);
+  if (!same_way) return std::nullopt;
+  return *same_way == Sign::positive ? 3 : 1;
+}
+
+/// Whether one comes to a strictly before b, turning counter-clockwise from `from`; `from` itself comes last.
+std::optional<bool> Ring::comes_before(const Direction& from, const Direction& a, const Direction& b) {
+  const auto qa = quadrant(from, a), qb = quadrant(from, b);
+  if (!qa || !qb) return std::nullopt;
+  if (*qa != *qb) return *qa < *qb;
+  if (*qa == 1 || *qa == 3) return false;
+  const MaybeSign order = turn(a, b);
+  if (!order) return std::nullopt;
+  return *order == Sign::positive;
+}
+
+/// On which side of a boundary ray the point lies; zero by identity where the ray is known to pass through it.
+MaybeSign Ring::at_ray(const Contender& wave, std::size_t end) {
+  const bool at_cone_vertex = node_->kind == Node::Kind::corner && wave.cone[end] == waves_.corner[node_->where];
+  const bool on_own_ray = node_->ray == wave.cone_site[end] && node_->ray_end == end;
+  if (at_cone_vertex || on_own_ray) return Sign::zero;
+  return decide([&](const auto& numbers) { return maybe_sign(cone_side(numbers, wave, end, node_point(waves_, numbers, *node_))); });
+}
+
+std::optional<bool> Ring::ties(const Node& node, std::uint32_t first, std::uint32_t other) {
+  const Contender &a = contenders_[first], &b = contenders_[other];
+  const auto test = [&](const auto& numbers) -> std::optional<bool> {
+    const auto p = node_point(waves_, numbers, node);
+    const MaybeSign farther = maybe_sign(distance(*numbers.sites[b.site], p) - distance(*numbers.sites[a.site], p));
+    if (farther == Sign::positive) return false;
+    bool open = !farther;
+    for (std::size_t end = 0; b.has_cone && end < 2; ++end) {
+      const MaybeSign inside = maybe_sign(cone_side(numbers, b, end, p));
+      if (inside == Sign::negative) return false;
+      open = open || !inside;
+    }
+    return open ? std::nullopt : std::optional(true);
+  };
+  return ladder_.decide(predicate_at(node.kind), test,
+                        [&] { return "whether " + contenders_.name(other) + " ties with " + contenders_.name(first) + " at " + place_name(node); });
+}
+
+bool Ring::load(const Node& node, std::span<const std::uint32_t> tied) {
+  node_ = &node;
+  tied_.clear();
+  for (const std::uint32_t contender : tied) tied_.push_back({contender, false, {false, false}});
+  same_.assign(tied.size() * tied.size(), 0);
+  for (Wave& wave : tied_) {
+    const Contender& c = contenders_[wave.contender];
+    wave.starts_here = node.kind == Node::Kind::corner && c.corner == node.where;
+    for (std::size_t end = 0; c.has_cone && end < 2; ++end) {
+      const MaybeSign side = at_ray(c, end);
+      if (!side) return false;
+      wave.on_ray[end] = *side == Sign::zero;
+    }
+  }
+  return true;
+}
+
+/// Whether the cone goes on from the point in directions right after d.
+std::optional<bool> Ring::seen_after(std::uint32_t i, const Direction& d) {
+  const Direction away{Direction::Kind::away, i, 0};
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!tied_[i].on_ray[end]) continue;
+    MaybeSign left = turn(away, d);                 // of the ray; the cone is on the right of ray 0 and on the left of ray 1
+    if (left == Sign::zero) left = along(away, d);  // turning on, one leaves it to the left, or to the right if d points back
+    if (!left) return std::nullopt;
+    if ((*left == Sign::positive) != (end == 1)) return false;
+  }
+  return true;
+}
+
+std::optional<bool> Ring::same_direction(std::uint32_t i, std::uint32_t j) {
+  signed char& known = same_[i * tied_.size() + j];
+  if (known == 0) {
+    const auto on_common_ray = [&](std::uint32_t parent, std::uint32_t relay) {
+      const int end = contenders_.tangent_end(tied_[parent].contender, tied_[relay].contender);
+      return end != Contenders::kNotTangent && tied_[parent].on_ray[static_cast<std::size_t>(end)];
+    };
+    if (on_common_ray(i, j) || on_common_ray(j, i)) {
+      known = 1;
+    } else {
+      const Direction to_i{Direction::Kind::towards, i, 0}, to_j{Direction::Kind::towards, j, 0};
+      const MaybeSign apart = turn(to_i, to_j);
+      const MaybeSign same_way = apart == Sign::zero ? along(to_i, to_j) : apart;
+      if (!same_way) return std::nullopt;
+      known = apart == Sign::zero && same_way == Sign::positive ? 1 : -1;
+    }
+    same_[j * tied_.size() + i] = known;
+  }
+  return known > 0;
+}
+
+/// Of two waves that come along one line: positive if j started on the way of i, which then is nowhere farther.
+MaybeSign Ring::behind(std::uint32_t i, std::uint32_t j) {
+  const std::uint32_t a = tied_[i].contender, b = tied_[j].contender;
+  if (contenders_.eclipses(a, b)) return Sign::positive;
+  if (contenders_.eclipses(b, a)) return Sign::negative;
+  if (contenders_[a].root == contenders_[b].root) return Sign::zero;
+  return decide([&](const auto& numbers) {
+    return maybe_sign(numbers.sites[contenders_[b].site]->weight - numbers.sites[contenders_[a].site]->weight);
+  });
+}
+
+/// Positive if i is nearer than j in directions right after d, cones aside; zero if they have one image.
+MaybeSign Ring::better_after(std::uint32_t i, std::uint32_t j, const Direction& d) {
+  if (tied_[i].starts_here || tied_[j].starts_here) return tied_[i].starts_here ? Sign::negative : Sign::positive;
+  const auto same = same_direction(i, j);
+  if (!same) return std::nullopt;
+  if (*same) return behind(i, j);
+  const bool is_change = d.kind == Direction::Kind::overtaking;
+  if (is_change && d.a == j && d.b == i) return Sign::positive;
+  if (is_change && d.a == i && d.b == j) return Sign::negative;
+  const MaybeSign sign =
+      decide([&](const auto& numbers) { return maybe_sign(dot(vector(numbers, d), difference(numbers, i, j))); });
+  if (sign != Sign::zero) return sign;
+  return decide([&](const auto& numbers) { return maybe_sign(cross(vector(numbers, d), difference(numbers, i, j))); });
+}
+
+std::optional<std::uint32_t> Ring::winner_after(const Direction& d) {
+  std::optional<std::uint32_t> best;
+  for (std::uint32_t i = 0; i < tied_.size(); ++i) {
+    const auto seen = seen_after(i, d);
+    if (!seen) return std::nullopt;
+    if (!*seen) continue;
+    const MaybeSign better = best ? better_after(i, *best, d) : Sign::positive;
+    if (!better) return std::nullopt;
+    if (*better == Sign::positive) best = i;
+  }
+  if (!best) ladder_.fail(predicate_at(node_->kind), "no wave is seen beside " + place_name(*node_));
+  return best;
+}
+
+/// The first direction after `from` in which another wave overtakes the winner, or a cone begins or ends.
+std::optional<Ring::Direction> Ring::next_change(const Direction& from, std::uint32_t winner) {
+  std::vector<Direction> changes;
+  for (std::uint32_t i = 0; i < tied_.size(); ++i) {
+    if (tied_[i].on_ray[0] || tied_[i].on_ray[1]) {
+      changes.push_back({Direction::Kind::away, i, 0});
+      changes.push_back({Direction::Kind::towards, i, 0});
+    }
+    if (i == winner || tied_[i].starts_here || tied_[winner].starts_here) continue;
+    const auto same = same_direction(i, winner);
+    if (!same) return std::nullopt;
+    if (!*same) changes.push_back({Direction::Kind::overtaking, winner, i});
+  }
+  Direction first = from;  // comes last
+  for (const Direction& d : changes) {
+    const auto sooner = comes_before(from, d, first);
+    if (!sooner) return std::nullopt;
+    if (*sooner) first = d;
+  }
+  return first;
+}
+
+std::vector<std::uint32_t> Ring::regions(const Node& node, std::span<const std::uint32_t> tied) {
+  if (!load(node, tied)) return {};
+  Direction at{Direction::Kind::side, node.kind == Node::Kind::inside ? 0u : node.where, 0};
+  Direction end = at;
+  if (node.kind == Node::Kind::corner) end = {Direction::Kind::back, (node.where + 2u) % 3, 0};
+  if (node.kind == Node::Kind::side) end = {Direction::Kind::back, node.where, 0};
+  std::vector<std::uint32_t> result;
+  auto winner = winner_after(at);
+  for (; winner; winner = winner_after(at)) {
+    const std::uint32_t contender = tied_[*winner].contender;
+    if (result.empty() || result.back() != contender) result.push_back(contender);
+    const auto next = next_change(at, *winner);
+    if (!next) return {};
+    const auto inside = comes_before(at, *next, end);
+    if (!inside) return {};
+    if (!*inside) {
+      if (node.kind == Node::Kind::inside && result.size() > 1 && result.front() == result.back()) result.pop_back();
+      return result;
+    }
+    at = *next;
+  }
+  return {};
+}
+
+}  // namespace gvd::kernel

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contenders.hpp"
+#include "gvd/kernel/node_point.hpp"
+
+namespace gvd::kernel {
+
+/// The regions round one point of a facet where several waves tie (docs/architecture.md#ties-at-a-point). Away from the point in direction e a wave
+/// grows by -e.u, u being the unit vector to its image, and it is there only in the directions in which its cone goes on: the regions are
+/// the upper envelope of the e.u over the angle of the facet. Nothing is assumed of the position of the images, cones or weights.
+class Ring {
+ public:
+  using Node = FacetTessellation::Node;
+
+  Ring(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder) : waves_(waves), contenders_(contenders), ladder_(ladder) {}
+
+  /// The contenders that are nearest in an angle of directions, counter-clockwise; at a corner or on a side from the direction in which the
+  /// outline goes on to the one it came from (there one may appear twice), inside beginning anywhere. Empty on failure.
+  /// Pre: `tied` are contenders whose closed cones contain the point, which they reach at one distance; no nearer one does.
+  std::vector<std::uint32_t> regions(const Node& node, std::span<const std::uint32_t> tied);
+
+  /// Whether `other` reaches the node at the distance of `first`, which is nearest there, and sees it. Empty on failure.
+  std::optional<bool> ties(const Node& node, std::uint32_t first, std::uint32_t other);
+
+ private:
+  struct Direction {
+    enum class Kind : std::uint8_t { side, back, away, towards, overtaking };
+    Kind kind = Kind::side;
+    std::uint32_t a = 0, b = 0;  ///< side, or a wave's image, or the waves a and b: turning through it, b takes over from a
+    bool operator==(const Direction&) const = default;
+  };
+  struct Wave {
+    std::uint32_t contender = 0;
+    bool starts_here = false;                 ///< the wave of the corner itself
+    std::array<bool, 2> on_ray{false, false};  ///< the point lies on this boundary ray of the cone
+  };
+
+  bool load(const Node& node, std::span<const std::uint32_t> tied);
+  robust::MaybeSign at_ray(const Contender& wave, std::size_t end);
+  std::optional<std::uint32_t> winner_after(const Direction& d);
+  std::optional<bool> seen_after(std::uint32_t i, const Direction& d);
+  robust::MaybeSign better_after(std::uint32_t i, std::uint32_t j, const Direction& d);
+  std::optional<bool> same_direction(std::uint32_t i, std::uint32_t j);
+  robust::MaybeSign behind(std::uint32_t i, std::uint32_t j);
+  std::optional<Direction> next_change(const Direction& from, std::uint32_t winner);
+  std::optional<bool> comes_before(const Direction& from, const Direction& a, const Direction& b);
+  std::optional<int> quadrant(const Direction& from, const Direction& d);
+  robust::Sign same_line(const Direction& a, const Direction& b) const;
+  robust::MaybeSign turn(const Direction& a, const Direction& b);
+  robust::MaybeSign along(const Direction& a, const Direction& b);
+
+  template <class NT>
+  predicates::PlanePoint<NT> to_image(const FacetNumbers<NT>& numbers, std::uint32_t wave) const;
+  template <class NT>
+  predicates::PlanePoint<NT> difference(const FacetNumbers<NT>& numbers, std::uint32_t i, std::uint32_t j) const;
+  template <class NT>
+  predicates::PlanePoint<NT> vector(const FacetNumbers<NT>& numbers, const Direction& d) const;
+  template <class Test>
+  robust::MaybeSign decide(const Test& test);
+
+  FacetWaves& waves_;
+  const Contenders& contenders_;
+  FacetLadder& ladder_;
+  const Node* node_ = nullptr;
+  std::vector<Wave> tied_;
+  std::vector<signed char> same_;  // per pair of tied_: 0 unknown, 1 the directions to the images are one, -1 they are not
+};
+
+}  // namespace gvd::kernel
