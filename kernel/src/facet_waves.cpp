@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/robust/rational.hpp"
@@ -14,6 +15,7 @@ using predicates::Disc;
 using predicates::EdgeFrame;
 using predicates::PlanePoint;
 using predicates::Strip;
+using predicates::to_first_side;
 using predicates::Unfolding;
 using robust::Ball;
 using robust::DoubleDouble;
@@ -28,24 +30,6 @@ std::uint64_t path_along_edge(VertexId root) { return (std::uint64_t{1} << 32) |
 
 /// An exact weight of more roots than this is left to the MPFR stage.
 constexpr std::size_t kMostRoots = 4;
-
-/// A point of the frame of side k in the frame of side 0, whose apex is w.
-template <class NT>
-PlanePoint<NT> to_first_side(const PlanePoint<NT>& z, unsigned k, const PlanePoint<NT>& w) {
-  if (k == 0) return z;
-  const NT one(1.0);
-  if (k == 1) {  // 1 + z (w - 1)
-    const NT turn = w.x - one;
-    return {one + (z.x * turn - z.y * w.y), z.x * w.y + z.y * turn};
-  }
-  const NT x = one - z.x;  // w (1 - z)
-  return {x * w.x + z.y * w.y, x * w.y - z.y * w.x};
-}
-
-template <class T>
-PlanePoint<Ball<T>> balls(const Disc<T>& z) {
-  return {predicates::ball_x(z), predicates::ball_y(z)};
-}
 
 }  // namespace
 
@@ -80,8 +64,7 @@ void FieldWaves::add_corner(std::uint8_t k) {
   if (k == 0) numbers.image = {F(0.0), F(0.0)};
   if (k == 1) numbers.image = {F(1.0), F(0.0)};
   if (k == 2) numbers.image = frame_.apex;
-  const double length_error = predicates::kUnfoldingStep * predicates::unit<double>(0) * frames(3 * face).length;
-  numbers.weight = narrowed(resolution_.distance(corner[k])) / F(frames(3 * face).length, length_error);
+  numbers.weight = narrowed(resolution_.distance(corner[k])) / predicates::enclosed_length(frames(3 * face), predicates::unit<double>(0));
   sites.push_back(site);
   sites_.push_back(numbers);
   strips_.emplace_back();
@@ -271,20 +254,15 @@ LabelSetId FieldWaves::only_label() const noexcept {
 
 template <class T>
 predicates::FacetFrame<Ball<T>> FieldWaves::make_frame(const EdgeFrame<T>& first, double unit) const {
-  const double apex_error = predicates::kUnfoldingStep * unit * predicates::rough_size(Complex<T>{first.u, first.y});
-  const double length_error = predicates::kUnfoldingStep * unit * predicates::rough(first.length);
-  return {{Ball<T>(first.u, apex_error), Ball<T>(first.y, apex_error)},
-          Ball<T>(first.length, length_error).scaled(resolution_.frames().scale())};
+  return {predicates::enclosed_apex(first, unit), predicates::enclosed_length(first, unit).scaled(resolution_.frames().scale())};
 }
 
 template <class T>
 predicates::Site<Ball<T>> FieldWaves::make_site(const FacetSite& site, const Unfolding<T>& at, const Ball<T>& weight,
                                                 const EdgeFrame<T>& first, double unit) const {
-  const double apex_error = predicates::kUnfoldingStep * unit * predicates::rough_size(Complex<T>{first.u, first.y});
-  const PlanePoint<Ball<T>> apex{Ball<T>(first.u, apex_error), Ball<T>(first.y, apex_error)};
-  const double length_error = predicates::kUnfoldingStep * unit * predicates::rough(first.length);
+  const PlanePoint<Ball<T>> apex = predicates::enclosed_apex(first, unit);
   predicates::Site<Ball<T>> result;
-  result.weight = weight / Ball<T>(first.length, length_error);
+  result.weight = weight / predicates::enclosed_length(first, unit);
   if (site.window == kNone) {
     if (site.corner == 0) result.image = {Ball<T>(0.0), Ball<T>(0.0)};
     if (site.corner == 1) result.image = {Ball<T>(1.0), Ball<T>(0.0)};
@@ -292,8 +270,8 @@ predicates::Site<Ball<T>> FieldWaves::make_site(const FacetSite& site, const Unf
     return result;
   }
   result.has_cone = true;
-  result.image = to_first_side(balls(at.image), site.side, apex);
-  result.cone = {to_first_side(balls(at.cone0), site.side, apex), to_first_side(balls(at.cone1), site.side, apex)};
+  result.image = to_first_side(predicates::balls(at.image), site.side, apex);
+  result.cone = {to_first_side(predicates::balls(at.cone0), site.side, apex), to_first_side(predicates::balls(at.cone1), site.side, apex)};
   return result;
 }
 

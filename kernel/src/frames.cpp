@@ -14,31 +14,6 @@ namespace {
 using robust::DoubleDouble;
 using robust::Mpfr;
 
-/// One formula for every number type: sides ab, bc, ca of a face, as vectors.
-template <class T>
-T dot(const std::array<T, 3>& p, const std::array<T, 3>& q) {
-  return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-}
-template <class T>
-std::array<T, 3> cross(const std::array<T, 3>& p, const std::array<T, 3>& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-template <class T>
-std::array<predicates::EdgeFrame<T>, 3> face_frames(const std::array<T, 3>& ab, const std::array<T, 3>& bc, const std::array<T, 3>& ca) {
-  using std::sqrt;
-  const T dot_a = -dot(ab, ca), dot_b = -dot(bc, ab), dot_c = -dot(ca, bc);
-  const T ll_ab = dot(ab, ab), ll_bc = dot(bc, bc), ll_ca = dot(ca, ca);
-  // The two shortest sides give the cross product its best relative error.
-  const auto normal = !(ll_ab < ll_bc) && !(ll_ab < ll_ca) ? cross(bc, ca) : !(ll_bc < ll_ca) ? cross(ca, ab) : cross(ab, bc);
-  const T area2 = sqrt(dot(normal, normal));
-  return {{{dot_a / ll_ab, dot_b / ll_ab, area2 / ll_ab, sqrt(ll_ab)},
-           {dot_b / ll_bc, dot_c / ll_bc, area2 / ll_bc, sqrt(ll_bc)},
-           {dot_c / ll_ca, dot_a / ll_ca, area2 / ll_ca, sqrt(ll_ca)}}};
-}
-
-/// Sides below this lose too many bits to underflow (docs/error-bounds.md#frames). All are below 2 sqrt(3), unless differences overflowed.
-constexpr double kLeastSide = 0x1p-200, kMostSide = 4;
-
 mpq_class scaled(const mpq_class& x, int k) { return x * robust::power_of_two(k); }
 
 }  // namespace
@@ -66,7 +41,7 @@ std::array<T, 3> Frames::side(FaceId f, int k, int bits) const {
 
 template <class T>
 std::array<predicates::EdgeFrame<T>, 3> Frames::make(FaceId f, int bits) const {
-  return face_frames(side<T>(f, 0, bits), side<T>(f, 1, bits), side<T>(f, 2, bits));
+  return predicates::face_frames(side<T>(f, 0, bits), side<T>(f, 1, bits), side<T>(f, 2, bits));
 }
 
 Frames::Frames(const Mesh& mesh) : mesh_(mesh) {
@@ -89,10 +64,10 @@ Frames::Frames(const Mesh& mesh) : mesh_(mesh) {
     } else {
       for (unsigned k = 0; k < 3; ++k) sides[k] = side<double>(f, static_cast<int>(k), 53);
     }
-    const auto frames = face_frames(sides[0], sides[1], sides[2]);
+    const auto frames = predicates::face_frames(sides[0], sides[1], sides[2]);
     for (std::size_t k = 0; k < 3; ++k) {
       double_[3 * f + k] = frames[k];
-      if (!(frames[k].length > kLeastSide && frames[k].length < kMostSide)) underflow_ = true;
+      if (!(frames[k].length > predicates::kLeastSide && frames[k].length < predicates::kMostSide)) underflow_ = true;
     }
   }
 }
@@ -125,13 +100,7 @@ ExactFace Frames::exact(FaceId f) const {
     const ExactPoint p = mesh_.exact_point(mesh_.origin(3 * f + k)), q = mesh_.exact_point(mesh_.target(3 * f + k));
     for (std::size_t i = 0; i < 3; ++i) side[k][i] = scaled(q[i] - p[i], -scale_);
   }
-  ExactFace face;
-  for (std::size_t k = 0; k < 3; ++k) {
-    face.dot[k] = -dot(side[k], side[(k + 2) % 3]);
-    face.squared[k] = dot(side[k], side[k]);
-  }
-  face.radicand = face.squared[0] * face.squared[2] - face.dot[0] * face.dot[0];
-  return face;
+  return predicates::exact_face(side);
 }
 
 std::uint32_t Frames::square_class(FaceId f) const {

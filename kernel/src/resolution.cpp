@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gvd/kernel/error.hpp"
+#include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/robust/rational.hpp"
 #include "gvd/robust/rounding.hpp"
 
@@ -24,21 +25,6 @@ namespace {
 /// Beyond so many relays an exact sum of roots is not attempted.
 constexpr int kMostRelays = 24;
 constexpr std::array<int, 4> kMpfrBits = {128, 256, 512, 1024};
-
-template <class NT>
-NT hypot(const NT& x, const NT& y) {
-  return sqrt(square(x) + square(y));
-}
-
-/// length * |image - apex| in the frame of h.
-template <class T>
-Ball<T> last_leg(const predicates::Disc<T>& image, const predicates::EdgeFrame<T>& frame, double unit) {
-  const double apex_error = predicates::kUnfoldingStep * unit * predicates::rough_size(predicates::Complex<T>{frame.u, frame.y});
-  const Ball<T> x = predicates::ball_x(image) - Ball<T>(frame.u, apex_error);
-  const Ball<T> y = predicates::ball_y(image) - Ball<T>(frame.y, apex_error);
-  const double length_error = predicates::kUnfoldingStep * unit * predicates::rough(frame.length);
-  return Ball<T>(frame.length, length_error) * hypot(x, y);
-}
 
 }  // namespace
 
@@ -204,7 +190,7 @@ Ball<DoubleDouble> Resolution::length(const Candidate& c, VertexId v) const {
   const predicates::Strip strip = strip_of(frames_.mesh(), field_, c.window);
   const auto frame = [&](HalfedgeId h) -> const predicates::EdgeFrame<DoubleDouble>& { return frames_.in_double_double(h); };
   const auto at = predicates::unfold<DoubleDouble, false>(strip, frame);
-  return distance_[c.via] + last_leg(at.image, frame(field_.windows[c.window].halfedge()), unit);
+  return distance_[c.via] + predicates::last_leg(at.image, frame(field_.windows[c.window].halfedge()), unit);
 }
 
 Ball<Mpfr> Resolution::length(const Candidate& c, VertexId v, int bits) const {
@@ -218,7 +204,7 @@ Ball<Mpfr> Resolution::length(const Candidate& c, VertexId v, int bits) const {
   }
   const auto at = unfold_mpfr(frames_, strip_of(frames_.mesh(), field_, c.window), bits);
   const HalfedgeId h = field_.windows[c.window].halfedge();
-  return root + last_leg(at.image, frames_.in_mpfr(Mesh::face(h), bits)[h % 3], unit);
+  return root + predicates::last_leg(at.image, frames_.in_mpfr(Mesh::face(h), bits)[h % 3], unit);
 }
 
 Ball<Mpfr> Resolution::distance(VertexId v, int bits) const { return length(field_.candidates[field_.first_candidate[v]], v, bits); }

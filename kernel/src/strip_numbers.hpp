@@ -88,7 +88,7 @@ class RationalNumbers {
     const RationalFrame f = frame(h);
     return {b1 + b2 * f.u, b2 * f.y};
   }
-  Point cross(const Point& z, HalfedgeId side, bool left) const { return turn(z, frame(side), left, radicand_); }
+  Point cross(const Point& z, HalfedgeId side, bool left) const { return predicates::turn(z, frame(side), left, radicand_); }
   Point cross_back(const Point& z, HalfedgeId h, bool left) const {
     const RationalFrame f = frame(h);
     if (left) return {z.x * f.u - z.y * f.y * radicand_, z.x * f.y + z.y * f.u};

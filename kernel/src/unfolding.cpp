@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gvd/kernel/error.hpp"
-#include "gvd/robust/rational.hpp"
 #include "rational_frame.hpp"
 
 namespace gvd::kernel {
@@ -53,18 +52,9 @@ Unfolding<Mpfr> unfold_mpfr(const Frames& frames, const Strip& strip, int bits) 
 }
 
 RationalFrame rational_frame(const Frames& frames, HalfedgeId h, const mpq_class& radicand) {
-  const ExactFace face = frames.exact(Mesh::face(h));
-  const std::size_t k = h % 3;
-  const auto root = robust::rational_square_root(face.radicand / radicand);
-  if (!root) throw InternalError("unfolding: a face is not of the square class of its strip");
-  const mpq_class& length2 = face.squared[k];
-  return {face.dot[k] / length2, face.dot[(k + 1) % 3] / length2, *root / length2};
-}
-
-QuadraticPoint turn(const QuadraticPoint& z, const RationalFrame& side, bool left, const mpq_class& n) {
-  if (left) return {z.x * side.v + z.y * side.y * n, z.y * side.v - z.x * side.y};
-  const mpq_class x = 1 - z.x;
-  return {1 - (x * side.u + z.y * side.y * n), z.y * side.u - x * side.y};
+  const auto frame = predicates::rational_frame(frames.exact(Mesh::face(h)), h % 3, radicand);
+  if (!frame) throw InternalError("unfolding: a face is not of the square class of its strip");
+  return *frame;
 }
 
 QuadraticPoint exact_apex(const Frames& frames, HalfedgeId h, const mpq_class& radicand) {
@@ -77,19 +67,8 @@ std::optional<ExactUnfolding> unfold_exact(const Frames& frames, const Strip& st
   if (frames.square_class(Mesh::face(strip.opposite)) != square_class) return std::nullopt;
   for (const auto& step : strip.steps)
     if (frames.square_class(Mesh::face(step.side)) != square_class) return std::nullopt;
-  ExactUnfolding at;
-  at.radicand = frames.exact(Mesh::face(last)).radicand;
-  const RationalFrame first = rational_frame(frames, strip.opposite, at.radicand);
-  at.image = {first.v, -first.y};
-  at.cone0 = {0, 0};
-  at.cone1 = {1, 0};
-  for (const auto& step : strip.steps) {
-    const RationalFrame side = rational_frame(frames, step.side, at.radicand);
-    at.image = turn(at.image, side, step.left, at.radicand);
-    at.cone0 = step.bounds && !step.left ? QuadraticPoint{0, 0} : turn(at.cone0, side, step.left, at.radicand);
-    at.cone1 = step.bounds && step.left ? QuadraticPoint{1, 0} : turn(at.cone1, side, step.left, at.radicand);
-  }
-  return at;
+  const mpq_class radicand = frames.exact(Mesh::face(last)).radicand;
+  return predicates::unfold_rational(strip, radicand, [&](HalfedgeId h) { return rational_frame(frames, h, radicand); });
 }
 
 }  // namespace gvd::kernel

@@ -106,14 +106,10 @@ BisectorVertices::Verdict BisectorVertices::conflict(const FacetNumbers<NT>& num
     return end == Contenders::kNotTangent || inside[static_cast<std::size_t>(end)] == Sign::positive ? Verdict::reject : Verdict::tie;
   }
   const auto relative = relative_wave(waves_, numbers, contenders_[t.pivot].site, wave.site);
-  const MaybeSign excess = maybe_sign(predicates::lifted_excess(relative, vertex));
-  if (excess == Sign::negative) return Verdict::pass;
-  if (!look()) return Verdict::pass;
-  // excess >= 0: |p - image| <= |rho - s|, which is a conflict or a tie only if rho - s is not negative
-  const MaybeSign reach = maybe_sign(vertex.rho - relative.s);
-  if (reach == Sign::negative) return Verdict::pass;
-  if (!excess || !reach || !inside[0] || !inside[1]) return Verdict::open;
-  return excess == Sign::positive ? Verdict::reject : Verdict::tie;
+  const MaybeSign nearer = predicates::conflict(relative, vertex);
+  if (nearer == Sign::negative || !look()) return Verdict::pass;
+  if (!nearer || !inside[0] || !inside[1]) return Verdict::open;
+  return nearer == Sign::positive ? Verdict::reject : Verdict::tie;
 }
 
 template <class NT>

@@ -10,18 +10,13 @@
 #include <vector>
 
 #include "gvd/kernel/mesh.hpp"
-#include "gvd/predicates/frame.hpp"
+#include "gvd/predicates/face_frames.hpp"
 #include "gvd/robust/double_double.hpp"
 #include "gvd/robust/mpfr_float.hpp"
 
 namespace gvd::kernel {
 
-/// A face in exact arithmetic, in scaled units: dot products at the corners, squared sides, and N (four times the squared area).
-struct ExactFace {
-  std::array<mpq_class, 3> dot;      ///< at corner k
-  std::array<mpq_class, 3> squared;  ///< of side k
-  mpq_class radicand;
-};
+using predicates::ExactFace;
 
 /// The frames of all half-edges of a mesh in every number type. All lengths are in *scaled units*: mesh units times 2^-scale(), chosen so that
 /// the largest coordinate difference lies in [1, 2). Thread-safe; what is costly is made on demand.
@@ -37,6 +32,7 @@ class Frames {
   const predicates::EdgeFrame<robust::DoubleDouble>& in_double_double(HalfedgeId h) const;
   /// Cost: some hundred MPFR operations; not cached.
   std::array<predicates::EdgeFrame<robust::Mpfr>, 3> in_mpfr(FaceId f, int bits) const;
+  /// In scaled units.
   ExactFace exact(FaceId f) const;
   /// The square class of the face's radicand: equal numbers if and only if the radicands differ by a rational square. Cached.
   std::uint32_t square_class(FaceId f) const;

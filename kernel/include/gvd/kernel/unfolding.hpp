@@ -8,7 +8,7 @@
 
 #include "gvd/kernel/distance_field.hpp"
 #include "gvd/kernel/frames.hpp"
-#include "gvd/predicates/strip.hpp"
+#include "gvd/predicates/rational_strip.hpp"
 
 namespace gvd::kernel {
 
@@ -29,15 +29,8 @@ class MpfrFrames {
 predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits, MpfrFrames& cache);
 predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits);
 
-/// A point x + i y sqrt(N) of a frame, N the radicand that the strip has in common.
-struct QuadraticPoint {
-  mpq_class x, y;
-};
-/// A strip all of whose faces, and the face it enters, have radicands of one square class: everything is rational over sqrt(radicand).
-struct ExactUnfolding {
-  mpq_class radicand;
-  QuadraticPoint image, cone0, cone1;
-};
+using predicates::ExactUnfolding;
+using predicates::QuadraticPoint;
 /// Empty if the faces are of several square classes. `last`: the half-edge over which the window comes in.
 std::optional<ExactUnfolding> unfold_exact(const Frames& frames, const predicates::Strip& strip, HalfedgeId last);
 /// The apex of the frame of h over the same root. Pre: the face is of the class of `radicand`.

@@ -32,6 +32,18 @@ NT lifted_excess(const RelativeWave<NT>& wave, const BisectorVertex<NT>& vertex)
   return dot(vertex.p, wave.a) - vertex.rho * wave.s - wave.gap().scaled(-1);
 }
 
+/// Whether a further wave conflicts with a vertex: positive iff it is nearer there (its cone aside), zero iff it ties, negative iff it is
+/// farther; empty if this number type cannot tell. Pre: the vertex is proved, and `wave` is relative to the same pivot.
+/// An excess that is not negative means |p - a| <= |rho - s|, which is a conflict or a tie only if rho - s is not negative.
+template <class NT>
+robust::MaybeSign conflict(const RelativeWave<NT>& wave, const BisectorVertex<NT>& vertex) {
+  const robust::MaybeSign excess = maybe_sign(lifted_excess(wave, vertex));
+  if (excess == robust::Sign::negative) return excess;
+  const robust::MaybeSign reach = maybe_sign(vertex.rho - wave.s);
+  if (reach == robust::Sign::negative) return reach;
+  return reach ? excess : std::nullopt;
+}
+
 namespace detail {
 
 template <class NT>
