@@ -4,9 +4,10 @@
 #include <cmath>
 
 #include "face_map.hpp"
+#include "gvd/predicates/strip_numbers.hpp"
 #include "gvd/robust/root_sum.hpp"
 #include "gvd/robust/rounding.hpp"
-#include "strip_numbers.hpp"
+#include "rational_frame.hpp"
 
 namespace gvd::kernel {
 namespace {
@@ -62,11 +63,18 @@ class StripWalk {
   }
 
   StripCrossings run() {
-    if (attempt(DiscNumbers<DoubleDouble>(frames_, 0))) return std::move(result_);
-    if (is_of_one_class() && attempt(RationalNumbers(frames_, frames_.exact(Mesh::face(strip_.opposite)).radicand)))
-      return std::move(result_);
-    for (const int bits : {128, 256, 512, 1024})
-      if (attempt(DiscNumbers<Mpfr>(frames_, bits))) return std::move(result_);
+    const auto double_double = [&](HalfedgeId h) -> decltype(auto) { return frames_.in_double_double(h); };
+    if (attempt(predicates::disc_numbers<DoubleDouble>(double_double))) return std::move(result_);
+    if (is_of_one_class()) {
+      const mpq_class radicand = frames_.exact(Mesh::face(strip_.opposite)).radicand;
+      if (attempt(predicates::RationalNumbers([&](HalfedgeId h) { return rational_frame(frames_, h, radicand); }, radicand)))
+        return std::move(result_);
+    }
+    for (const int bits : {128, 256, 512, 1024}) {
+      MpfrFrames cache;
+      const auto mpfr = [&](HalfedgeId h) -> decltype(auto) { return cache(frames_, h, bits); };
+      if (attempt(predicates::disc_numbers<Mpfr>(mpfr, bits))) return std::move(result_);
+    }
     result_.undecided = true;
     return std::move(result_);
   }
