@@ -1,13 +1,12 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <utility>
 #include <vector>
 
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/kernel/source.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::kernel {
 

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <vector>
 
 #include "gvd/kernel/resolution.hpp"
 #include "gvd/kernel/solver.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::kernel {
 

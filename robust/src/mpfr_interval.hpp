@@ -1,8 +1,7 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include "gvd/robust/ball.hpp"
+#include "gvd/robust/gmp.hpp"
 #include "gvd/robust/sign.hpp"
 
 namespace gvd::robust {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <optional>
 
+#include "gvd/robust/gmp.hpp"
 #include "gvd/robust/sign.hpp"
 #include "mpfr_interval.hpp"
 

@@ -1,4 +1,3 @@
-#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/predicates/strip.hpp"
+#include "gvd/robust/gmp.hpp"
 #include "support/meshes.hpp"
 
 namespace gvd::test {

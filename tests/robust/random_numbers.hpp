@@ -1,13 +1,12 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <random>
 
 #include "gvd/robust/ball.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::robust::test {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -10,6 +8,7 @@
 
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/kernel/source.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::io {
 

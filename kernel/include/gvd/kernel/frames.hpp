@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <atomic>
 #include <memory>
@@ -12,6 +10,7 @@
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/predicates/face_frames.hpp"
 #include "gvd/robust/double_double.hpp"
+#include "gvd/robust/gmp.hpp"
 #include "gvd/robust/mpfr_float.hpp"
 
 namespace gvd::kernel {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstdint>
 #include <span>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "gvd/kernel/ids.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::kernel {
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "gvd/kernel/ids.hpp"
 #include "gvd/kernel/mesh.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::kernel {
 

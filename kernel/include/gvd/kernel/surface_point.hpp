@@ -1,12 +1,11 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 
 #include "gvd/kernel/ids.hpp"
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/kernel/source.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::kernel {
 

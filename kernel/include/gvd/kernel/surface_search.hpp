@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstdint>
 #include <span>
@@ -10,6 +8,7 @@
 #include "gvd/kernel/ids.hpp"
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/kernel/source.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::kernel {
 

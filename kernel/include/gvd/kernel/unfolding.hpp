@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <optional>
 #include <unordered_map>
@@ -9,6 +7,7 @@
 #include "gvd/kernel/distance_field.hpp"
 #include "gvd/kernel/frames.hpp"
 #include "gvd/predicates/rational_strip.hpp"
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::kernel {
 

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <optional>
 #include <span>
 
 #include "gvd/robust/decision.hpp"
+#include "gvd/robust/gmp.hpp"
 #include "gvd/robust/sign.hpp"
 
 /// The angle test at a vertex: the sum of the angles of a fan of corners against 2 pi (4 quarter turns) or pi (2).

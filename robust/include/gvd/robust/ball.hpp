@@ -1,12 +1,11 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
 
+#include "gvd/robust/gmp.hpp"
 #include "gvd/robust/midpoint.hpp"
 #include "gvd/robust/sign.hpp"
 

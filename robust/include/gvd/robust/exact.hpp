@@ -1,12 +1,11 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "gvd/robust/ball.hpp"
+#include "gvd/robust/gmp.hpp"
 #include "gvd/robust/sign.hpp"
 
 namespace gvd::robust {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <gmpxx.h>
 #include <mpfr.h>
+
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::robust {
 

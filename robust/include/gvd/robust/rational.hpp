@@ -1,10 +1,10 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstdint>
 #include <optional>
+
+#include "gvd/robust/gmp.hpp"
 
 namespace gvd::robust {
 

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <gmpxx.h>
-
 #include <cstdint>
 #include <vector>
 
 #include "gvd/robust/ball.hpp"
+#include "gvd/robust/gmp.hpp"
 #include "gvd/robust/sign.hpp"
 
 namespace gvd::robust {
