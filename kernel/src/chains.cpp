@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "fan_image.hpp"
 #include "gvd/kernel/error.hpp"
 #include "gvd/predicates/plane.hpp"
 
@@ -68,8 +69,9 @@ class Tracer {
         return contradiction(p, "the label sets beside a GVD edge are exchanged");
     for (std::size_t side = 0; side < 2; ++side) {
       if (continues(p, in, out, side)) continue;
-      if (proved_same(p, in, out, side)) continue;
-      if (!proved_different(p, in, out, side)) result_.doubts.push_back("whether the conic changes at " + describe(p));
+      const std::optional<bool> same = place.kind == Place::Kind::vertex ? same_image_at_vertex(p, in, out, side) : std::nullopt;
+      if (same.value_or(proved_same(p, in, out, side))) continue;
+      if (!same && !proved_different(p, in, out, side)) result_.doubts.push_back("whether the conic changes at " + describe(p));
       return Role::break_point;
     }
     return inside_input_face(in_, place) ? Role::erased : Role::crossing;
@@ -157,6 +159,16 @@ class Tracer {
     for (std::size_t i = 0; i < 2; ++i)
       if (maybe_sign(square_from(wa, a.site, shared[i]) - square_from(wb, b.site, shared[i])) != robust::Sign::zero) return false;
     return beside(wa, a.site).has_value() && beside(wa, a.site) == beside(wb, b.site);
+  }
+
+  /// Round a flat vertex images can be compared whichever way one turns; decided by algebra if at all.
+  std::optional<bool> same_image_at_vertex(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
+    const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];
+    const Skeleton &fa = s_.facets[a.facet], &fb = s_.facets[b.facet];
+    const VertexId v = s_.places[p].vertex;
+    if (fa.waves == nullptr || fb.waves == nullptr || !is_flat(fa, v)) return std::nullopt;
+    if (fa.waves->sites[a.site].root != fb.waves->sites[b.site].root) return false;
+    return have_one_image_round(in_.refined, v, *fa.waves, a.site, *fb.waves, b.site);
   }
 
   bool descends(WindowId child, WindowId ancestor) const {
