@@ -69,9 +69,10 @@ class Tracer {
         return contradiction(p, "the label sets beside a GVD edge are exchanged");
     for (std::size_t side = 0; side < 2; ++side) {
       if (continues(p, in, out, side)) continue;
-      const std::optional<bool> same = place.kind == Place::Kind::vertex ? same_image_at_vertex(p, in, out, side) : std::nullopt;
-      if (same.value_or(proved_same(p, in, out, side))) continue;
-      if (!same && !proved_different(p, in, out, side)) result_.doubts.push_back("whether the conic changes at " + describe(p));
+      if (proved_different(p, in, out, side)) return Role::break_point;
+      const std::optional<bool> same = place.kind == Place::Kind::vertex ? same_at_vertex(p, in, out, side) : same_at_edge(in, out, side);
+      if (same == true) continue;
+      if (!same) result_.doubts.push_back("whether the conic changes at " + describe(p));
       return Role::break_point;
     }
     return inside_input_face(in_, place) ? Role::erased : Role::crossing;
@@ -108,7 +109,7 @@ class Tracer {
   }
 
   /// Whether the waves on one side before and after a place certainly have different images: other roots, or other distances from the ends of
-  /// the edge that the facets share. At a vertex that is not flat, windows that pass it on either side are turned against each other.
+  /// the edge that the facets share. Round a vertex that is not flat no plane shows both arcs: images on one side are turned against the other's.
   bool proved_different(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
     using NT = FacetWaves::DD;
     using predicates::operator-;
@@ -117,9 +118,7 @@ class Tracer {
     if (s_.facets[a.facet].waves == nullptr || s_.facets[b.facet].waves == nullptr) return false;
     FacetWaves &wa = *s_.facets[a.facet].waves, &wb = *s_.facets[b.facet].waves;
     if (wa.sites[a.site].root != wb.sites[b.site].root) return true;
-    if (place.kind == Place::Kind::vertex)
-      return !is_flat(s_.facets[a.facet], place.vertex) && !descends(wa.sites[a.site].window, wb.sites[b.site].window) &&
-             !descends(wb.sites[b.site].window, wa.sites[a.site].window);
+    if (place.kind == Place::Kind::vertex) return !is_flat(s_.facets[a.facet], place.vertex);
     const auto square_from = [](FacetWaves& waves, std::uint32_t site, VertexId v) {
       const auto k = static_cast<std::size_t>(std::find(waves.corner.begin(), waves.corner.end(), v) - waves.corner.begin());
       const auto& frame = waves.frame(NT());
@@ -133,18 +132,18 @@ class Tracer {
     return false;
   }
 
-  /// Whether they have one image by algebra: the same root, and the same distances from the ends of the edge that the facets share, on the
-  /// same side of it. Offered only where the strips are of one square class.
-  bool proved_same(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
+  /// Whether they have one image, by algebra: the same distances from the ends of the edge that the facets share, on the same side of it. Pre: one
+  /// root. Empty where the strips are not of one square class.
+  std::optional<bool> same_at_edge(DirectedLink in, DirectedLink out, std::size_t side) const {
     using predicates::operator-;
     const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];
-    if (s_.places[p].kind == Place::Kind::vertex || s_.facets[a.facet].waves == nullptr || s_.facets[b.facet].waves == nullptr) return false;
+    if (s_.facets[a.facet].waves == nullptr || s_.facets[b.facet].waves == nullptr) return std::nullopt;
     FacetWaves &wa = *s_.facets[a.facet].waves, &wb = *s_.facets[b.facet].waves;
-    if (wa.sites[a.site].root != wb.sites[b.site].root || wa.exact_frame() == nullptr || wb.exact_frame() == nullptr) return false;
+    if (wa.exact_frame() == nullptr || wb.exact_frame() == nullptr) return std::nullopt;
     std::vector<VertexId> shared;
     for (const VertexId v : wa.corner)
       if (std::find(wb.corner.begin(), wb.corner.end(), v) != wb.corner.end()) shared.push_back(v);
-    if (shared.size() < 2) return false;
+    if (shared.size() < 2) return std::nullopt;
     const auto corner = [](FacetWaves& waves, VertexId v) {
       const auto k = static_cast<std::size_t>(std::find(waves.corner.begin(), waves.corner.end(), v) - waves.corner.begin());
       return predicates::corner_point(*waves.exact_frame(), k);
@@ -156,24 +155,22 @@ class Tracer {
       const auto origin = corner(waves, shared[0]);
       return maybe_sign(cross(corner(waves, shared[1]) - origin, waves.exact_site(site)->image - origin));
     };
-    for (std::size_t i = 0; i < 2; ++i)
-      if (maybe_sign(square_from(wa, a.site, shared[i]) - square_from(wb, b.site, shared[i])) != robust::Sign::zero) return false;
-    return beside(wa, a.site).has_value() && beside(wa, a.site) == beside(wb, b.site);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto difference = maybe_sign(square_from(wa, a.site, shared[i]) - square_from(wb, b.site, shared[i]));
+      if (difference != robust::Sign::zero) return difference ? std::optional(false) : std::nullopt;
+    }
+    const auto of_a = beside(wa, a.site), of_b = beside(wb, b.site);
+    if (!of_a || !of_b) return std::nullopt;
+    return *of_a == *of_b;
   }
 
-  /// Round a flat vertex images can be compared whichever way one turns; decided by algebra if at all.
-  std::optional<bool> same_image_at_vertex(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
+  /// The same at a vertex: round a flat one images can be compared whichever way one turns.
+  std::optional<bool> same_at_vertex(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
     const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];
     const Skeleton &fa = s_.facets[a.facet], &fb = s_.facets[b.facet];
     const VertexId v = s_.places[p].vertex;
     if (fa.waves == nullptr || fb.waves == nullptr || !is_flat(fa, v)) return std::nullopt;
-    if (fa.waves->sites[a.site].root != fb.waves->sites[b.site].root) return false;
     return have_one_image_round(in_.refined, v, *fa.waves, a.site, *fb.waves, b.site);
-  }
-
-  bool descends(WindowId child, WindowId ancestor) const {
-    while (child != kNone && child != ancestor) child = in_.window(child).parent;
-    return child != kNone;
   }
 
   /// Round a flat vertex a wave that comes in once is one image, though other windows carry it on the two sides.

@@ -6,6 +6,7 @@ namespace gvd::kernel {
 namespace {
 
 using predicates::Predicate;
+using predicates::operator-;
 using robust::Sign;
 
 /// Whether the points are certainly different, as far as doubles can tell.
@@ -121,20 +122,41 @@ void Contenders::find_tangencies(FacetLadder& ladder) {
     }
   }
   eclipsed_.assign(n * n, 0);
-  for (std::size_t p = 0; p < n; ++p)
-    for (std::size_t r = 0; r < n; ++r)
-      if (p != r && (tangent_[p * n + r] != kNotTangent || finds_eclipse(ladder, list_[p], list_[r]))) eclipsed_[p * n + r] = 1;
+  for (std::size_t p = 0; p < n; ++p) {
+    for (std::size_t r = 0; r < n; ++r) {
+      if (p == r || (tangent_[p * n + r] == kNotTangent && !finds_eclipse(ladder, list_[p], list_[r]))) continue;
+      eclipsed_[p * n + r] = 1;
+      if (tangent_[p * n + r] == kNotTangent) tangent_[p * n + r] = static_cast<signed char>(ray_through(ladder, list_[p], list_[r]));
+    }
+  }
 }
 
-/// Asks for identity only where doubles cannot exclude it: the difference of the weights must be the distance of the images.
+/// Asked only where doubles cannot exclude it: the difference of the weights must be the distance of the images. By identity if the path is known
+/// to go that way, else by algebra.
 bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
   if (relay.corner != FacetSite::kNoCorner && wave.attains_corner[relay.corner]) return true;
   if (!wave.has_cone) return false;
-  const auto &a = *ladder.filter().sites[wave.site], &b = *ladder.filter().sites[relay.site];
-  const auto gap = square(a.image.x - b.image.x) + square(a.image.y - b.image.y) - square(b.weight - a.weight);
-  if (maybe_sign(gap) || maybe_sign(b.weight - a.weight) == Sign::negative) return false;
-  return waves_.is_own_relay(wave.site, relay.site) || waves_.is_own_relay(wave.cone_site[0], relay.site) ||
-         waves_.is_own_relay(wave.cone_site[1], relay.site);
+  const auto gap = [&](const auto& numbers) {
+    const auto &a = *numbers.sites[wave.site], &b = *numbers.sites[relay.site];
+    return maybe_sign(squared_norm(a.image - b.image) - square(b.weight - a.weight));
+  };
+  const auto heavier = [&](const auto& numbers) { return maybe_sign(numbers.sites[relay.site]->weight - numbers.sites[wave.site]->weight); };
+  if (wave.root == relay.root || gap(ladder.filter()) || heavier(ladder.filter()) == Sign::negative) return false;
+  if (waves_.is_own_relay(wave.site, relay.site) || waves_.is_own_relay(wave.cone_site[0], relay.site) ||
+      waves_.is_own_relay(wave.cone_site[1], relay.site))
+    return true;
+  return ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return gap(numbers); }) == Sign::zero &&
+         ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return heavier(numbers); }) == Sign::positive;
+}
+
+/// The boundary ray of the wave on which a relay that it eclipses lies, if any: several vertices may follow one another on a ray.
+int Contenders::ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
+  for (std::size_t end = 0; wave.has_cone && end < 2; ++end) {
+    const auto side = [&](const auto& numbers) { return maybe_sign(cone_side(numbers, wave, end, numbers.sites[relay.site]->image)); };
+    if (side(ladder.filter())) continue;
+    if (ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return side(numbers); }) == Sign::zero) return static_cast<int>(end);
+  }
+  return kNotTangent;
 }
 
 }  // namespace gvd::kernel

@@ -70,6 +70,7 @@ class Contenders {
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   void find_tangencies(FacetLadder& ladder);
   bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
+  int ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
 
   FacetWaves& waves_;
   std::vector<Contender> list_;

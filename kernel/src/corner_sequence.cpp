@@ -38,16 +38,7 @@ MaybeSign CornerOrder::nearer_beside(std::size_t c, Direction direction, std::ui
     const auto to_a = ia - at, to_b = ib - at;
     return maybe_sign(dot(to_a, along) * sqrt(squared_norm(to_b)) - dot(to_b, along) * sqrt(squared_norm(to_a)));
   };
-  const MaybeSign sign = ladder_.decide(Predicate::corner_order, test, [&] { return describe(c, p, q, "order"); });
-  if (sign != Sign::zero || a.root == b.root) return sign;
-  // Equal slopes along the side: mirror images if the weights are equal too; otherwise the bisector touches the side.
-  const auto weights = [&](const auto& numbers) { return maybe_sign(numbers.sites[a.site]->weight - numbers.sites[b.site]->weight); };
-  const MaybeSign difference = ladder_.decide(Predicate::corner_order, weights, [&] { return describe(c, p, q, "weights"); });
-  if (difference && *difference != Sign::zero) {
-    ladder_.fail(Predicate::corner_order, describe(c, p, q, "bisector tangent to the side"));
-    return std::nullopt;
-  }
-  return difference;
+  return ladder_.decide(Predicate::corner_order, test, [&] { return describe(c, p, q, "order"); });
 }
 
 std::vector<std::uint32_t> CornerOrder::sequence(std::size_t c) {

@@ -19,8 +19,8 @@ class CornerOrder {
   std::vector<std::uint32_t> sequence(std::size_t c);
 
   enum class Direction { outgoing, incoming };  ///< along the side that starts at the corner, or back along the one that ends there
-  /// Which of two contenders that tie at corner c is nearer right beside it in that direction, cones aside: positive if p is, zero if
-  /// they tie along the whole side. Empty on failure.
+  /// Which of two contenders that tie at corner c is nearer right beside it in that direction, cones aside: positive if p is. Zero: to first order
+  /// they are equal there, so they cross nowhere else on that side (their difference has two zeros at most). Empty on failure.
   robust::MaybeSign nearer_beside(std::size_t c, Direction direction, std::uint32_t p, std::uint32_t q);
 
  private:

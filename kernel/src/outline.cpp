@@ -222,15 +222,23 @@ predicates::SideTie<NT> OutlineWalk::parameter(const FacetNumbers<NT>& numbers, 
 template <class NT>
 std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event,
                                                            const std::optional<Event>& previous) const {
-  const predicates::SideTie<NT> tie = parameter(numbers, side, event);
-  if (tie.existence == Existence::impossible) return Answer::no;
-  if (tie.existence == Existence::open) return std::nullopt;
   bool open = false, on_ray = false;
   const auto excludes = [&](const NT& x) {
     const MaybeSign sign = maybe_sign(x);
     if (!sign) open = true;
     return sign && *sign != Sign::positive;
   };
+  if (event.ray != FacetTessellation::kNoSite) {  // the ray must cross the side, in the right sense
+    const auto& parent = *numbers.sites[event.ray];
+    const bool view_ends = contenders_[event.from].has_cone && contenders_[event.from].cone_site[event.ray_end] == event.ray;
+    const NT before = predicates::cone_side(parent, event.ray_end, numbers.side[side].origin);
+    const NT after = predicates::cone_side(parent, event.ray_end, numbers.side[(side + 1) % 3].origin);
+    if (excludes(view_ends ? before : -before) || excludes(view_ends ? -after : after)) return Answer::no;
+    if (open) return std::nullopt;
+  }
+  const predicates::SideTie<NT> tie = parameter(numbers, side, event);
+  if (tie.existence == Existence::impossible) return Answer::no;
+  if (tie.existence == Existence::open) return std::nullopt;
   if (excludes(tie.t) || excludes(NT(1.0) - tie.t)) return Answer::no;
   const Contender& to = contenders_[event.to];
   if (to.has_cone) {

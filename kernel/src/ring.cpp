@@ -149,13 +149,16 @@ bool Ring::load(const Node& node, std::span<const std::uint32_t> tied) {
   return true;
 }
 
-/// Whether the cone goes on from the point in directions right after d.
-std::optional<bool> Ring::seen_after(std::uint32_t i, const Direction& d) {
+/// Whether the cone goes on from the point in directions right after d, or right before it, counter-clockwise.
+std::optional<bool> Ring::seen(std::uint32_t i, const Direction& d, Beside beside) {
   const Direction away{Direction::Kind::away, i, 0};
   for (std::size_t end = 0; end < 2; ++end) {
     if (!tied_[i].on_ray[end]) continue;
     MaybeSign left = turn(away, d);                 // of the ray; the cone is on the right of ray 0 and on the left of ray 1
-    if (left == Sign::zero) left = along(away, d);  // turning on, one leaves it to the left, or to the right if d points back
+    if (left == Sign::zero) {                       // turning on, one leaves it to the left, or to the right if d points back
+      left = along(away, d);
+      if (left && beside == Beside::before) left = -*left;
+    }
     if (!left) return std::nullopt;
     if ((*left == Sign::positive) != (end == 1)) return false;
   }
@@ -183,7 +186,7 @@ std::optional<bool> Ring::same_direction(std::uint32_t i, std::uint32_t j) {
   return known > 0;
 }
 
-/// Of two waves that come along one line: positive if j started on the way of i, which then is nowhere farther.
+/// Of two waves that tie: positive if j has the greater weight. If they come along one line, it started on the way of i, which is nowhere farther.
 MaybeSign Ring::behind(std::uint32_t i, std::uint32_t j) {
   const std::uint32_t a = tied_[i].contender, b = tied_[j].contender;
   if (contenders_.eclipses(a, b)) return Sign::positive;
@@ -212,9 +215,9 @@ MaybeSign Ring::better_after(std::uint32_t i, std::uint32_t j, const Direction& 
 std::optional<std::uint32_t> Ring::winner_after(const Direction& d) {
   std::optional<std::uint32_t> best;
   for (std::uint32_t i = 0; i < tied_.size(); ++i) {
-    const auto seen = seen_after(i, d);
-    if (!seen) return std::nullopt;
-    if (!*seen) continue;
+    const auto visible = seen(i, d, Beside::after);
+    if (!visible) return std::nullopt;
+    if (!*visible) continue;
     const MaybeSign better = best ? better_after(i, *best, d) : Sign::positive;
     if (!better) return std::nullopt;
     if (*better == Sign::positive) best = i;
@@ -245,14 +248,46 @@ std::optional<Ring::Direction> Ring::next_change(const Direction& from, std::uin
   return first;
 }
 
+/// Along a side d, where two waves with mirrored directions grow alike to first order: the one with the lower weight is nearer there, and keeps
+/// a part of the facet between the side and a bisector that touches it. That wave, if it is not `inward`, the nearest just inside.
+std::optional<std::uint32_t> Ring::along_side(const Direction& d, Beside beside, std::uint32_t inward) {
+  if (tied_[inward].starts_here) return inward;
+  for (std::uint32_t i = 0; i < tied_.size(); ++i) {
+    const std::uint32_t a = tied_[i].contender, b = tied_[inward].contender;
+    if (tied_[i].starts_here || contenders_[a].root == contenders_[b].root) continue;
+    const MaybeSign slope = decide([&](const auto& numbers) { return maybe_sign(dot(vector(numbers, d), difference(numbers, i, inward))); });
+    if (slope && *slope != Sign::zero) continue;
+    const auto visible = seen(i, d, beside);
+    const auto one_line = same_direction(i, inward);
+    if (!slope || !visible || !one_line) return std::nullopt;
+    if (!*visible || *one_line) continue;
+    const MaybeSign lighter = behind(i, inward);
+    if (!lighter) return std::nullopt;
+    if (*lighter == Sign::positive) return i;
+  }
+  return inward;
+}
+
+/// The regions by direction, between those that have the sides themselves.
+bool Ring::add_slivers(const Direction& begin, const Direction& end, std::uint32_t first, std::uint32_t last,
+                       std::vector<std::uint32_t>& regions) {
+  const auto before = along_side(begin, Beside::after, first), after = along_side(end, Beside::before, last);
+  if (!before || !after) return false;
+  if (*before != first) regions.insert(regions.begin(), tied_[*before].contender);
+  if (*after != last) regions.push_back(tied_[*after].contender);
+  return true;
+}
+
 std::vector<std::uint32_t> Ring::regions(const Node& node, std::span<const std::uint32_t> tied) {
   if (!load(node, tied)) return {};
   Direction at{Direction::Kind::side, node.kind == Node::Kind::inside ? 0u : node.where, 0};
   Direction end = at;
   if (node.kind == Node::Kind::corner) end = {Direction::Kind::back, (node.where + 2u) % 3, 0};
   if (node.kind == Node::Kind::side) end = {Direction::Kind::back, node.where, 0};
+  const Direction begin = at;
   std::vector<std::uint32_t> result;
   auto winner = winner_after(at);
+  const std::uint32_t first = winner.value_or(0);
   for (; winner; winner = winner_after(at)) {
     const std::uint32_t contender = tied_[*winner].contender;
     if (result.empty() || result.back() != contender) result.push_back(contender);
@@ -261,7 +296,8 @@ std::vector<std::uint32_t> Ring::regions(const Node& node, std::span<const std::
     const auto inside = comes_before(at, *next, end);
     if (!inside) return {};
     if (!*inside) {
-      if (node.kind == Node::Kind::inside && result.size() > 1 && result.front() == result.back()) result.pop_back();
+      if (node.kind != Node::Kind::inside) return add_slivers(begin, end, first, *winner, result) ? result : std::vector<std::uint32_t>();
+      if (result.size() > 1 && result.front() == result.back()) result.pop_back();
       return result;
     }
     at = *next;

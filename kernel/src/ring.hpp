@@ -42,10 +42,13 @@ class Ring {
   bool load(const Node& node, std::span<const std::uint32_t> tied);
   robust::MaybeSign at_ray(const Contender& wave, std::size_t end);
   std::optional<std::uint32_t> winner_after(const Direction& d);
-  std::optional<bool> seen_after(std::uint32_t i, const Direction& d);
+  enum class Beside : std::uint8_t { before, after };
+  std::optional<bool> seen(std::uint32_t i, const Direction& d, Beside beside);
   robust::MaybeSign better_after(std::uint32_t i, std::uint32_t j, const Direction& d);
   std::optional<bool> same_direction(std::uint32_t i, std::uint32_t j);
   robust::MaybeSign behind(std::uint32_t i, std::uint32_t j);
+  std::optional<std::uint32_t> along_side(const Direction& d, Beside beside, std::uint32_t inward);
+  bool add_slivers(const Direction& begin, const Direction& end, std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& regions);
   std::optional<Direction> next_change(const Direction& from, std::uint32_t winner);
   std::optional<bool> comes_before(const Direction& from, const Direction& a, const Direction& b);
   std::optional<int> quadrant(const Direction& from, const Direction& d);
