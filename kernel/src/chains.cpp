@@ -70,7 +70,8 @@ class Tracer {
     for (std::size_t side = 0; side < 2; ++side) {
       if (continues(p, in, out, side)) continue;
       if (proved_different(p, in, out, side)) return Role::break_point;
-      const std::optional<bool> same = place.kind == Place::Kind::vertex ? same_at_vertex(p, in, out, side) : same_at_edge(in, out, side);
+      const std::optional<bool> same =
+          place.kind == Place::Kind::vertex ? same_at_vertex(p, in, out, side) : same_at_edge(in, out, side);
       if (same == true) continue;
       if (!same) result_.doubts.push_back("whether the conic changes at " + describe(p));
       return Role::break_point;
@@ -108,8 +109,9 @@ class Tracer {
     return EdgeJoiner::same_wave(in_, fa.face == Mesh::face(h) ? h : twin, fa, a.site, fb, b.site);
   }
 
-  /// Whether the waves on one side before and after a place certainly have different images: other roots, or other distances from the ends of
-  /// the edge that the facets share. Round a vertex that is not flat no plane shows both arcs: images on one side are turned against the other's.
+  /// Whether the waves on one side before and after a place certainly have different images: other roots, or other distances from
+  /// the ends of the edge that the facets share. Round a vertex that is not flat no plane shows both arcs: images on one side are
+  /// turned against the other's.
   bool proved_different(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
     using NT = FacetWaves::DD;
     using predicates::operator-;
@@ -132,8 +134,8 @@ class Tracer {
     return false;
   }
 
-  /// Whether they have one image, by algebra: the same distances from the ends of the edge that the facets share, on the same side of it. Pre: one
-  /// root. Empty where the strips are not of one square class.
+  /// Whether they have one image, by algebra: the same distances from the ends of the edge that the facets share, on the same side
+  /// of it. Pre: one root. Empty where the strips are not of one square class.
   std::optional<bool> same_at_edge(DirectedLink in, DirectedLink out, std::size_t side) const {
     using predicates::operator-;
     const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];

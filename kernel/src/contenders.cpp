@@ -44,7 +44,8 @@ std::string Contenders::name(std::size_t i) const {
   return "site " + std::to_string(list_[i].site) + " (root " + std::to_string(list_[i].root) + ")";
 }
 
-/// The image is one for windows that pass a flat corner of the facet on either side: identity. Elsewhere it takes the exact numbers.
+/// The image is one for windows that pass a flat corner of the facet on either side: identity. Elsewhere it takes the exact
+/// numbers.
 bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const {
   if (separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image)) return false;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -73,7 +74,8 @@ bool Contenders::touching(FacetLadder& ladder, const Contender& left, const Cont
   if (left.cone[1] == right.cone[0] && left.cone[1] != kNone) return true;
   const auto sign = ladder.for_each_stage([&](const auto& numbers, robust::Stage) {
     const auto& image = numbers.sites[left.site]->image;
-    return maybe_sign(predicates::orientation(image, numbers.sites[left.cone_site[1]]->cone[1], numbers.sites[right.cone_site[0]]->cone[0]));
+    return maybe_sign(
+        predicates::orientation(image, numbers.sites[left.cone_site[1]]->cone[1], numbers.sites[right.cone_site[0]]->cone[0]));
   });
   return sign == Sign::zero;
 }
@@ -126,13 +128,14 @@ void Contenders::find_tangencies(FacetLadder& ladder) {
     for (std::size_t r = 0; r < n; ++r) {
       if (p == r || (tangent_[p * n + r] == kNotTangent && !finds_eclipse(ladder, list_[p], list_[r]))) continue;
       eclipsed_[p * n + r] = 1;
-      if (tangent_[p * n + r] == kNotTangent) tangent_[p * n + r] = static_cast<signed char>(ray_through(ladder, list_[p], list_[r]));
+      if (tangent_[p * n + r] == kNotTangent)
+        tangent_[p * n + r] = static_cast<signed char>(ray_through(ladder, list_[p], list_[r]));
     }
   }
 }
 
-/// Asked only where doubles cannot exclude it: the difference of the weights must be the distance of the images. By identity if the path is known
-/// to go that way, else by algebra.
+/// Asked only where doubles cannot exclude it: the difference of the weights must be the distance of the images. By identity if the
+/// path is known to go that way, else by algebra.
 bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
   if (relay.corner != FacetSite::kNoCorner && wave.attains_corner[relay.corner]) return true;
   if (!wave.has_cone) return false;
@@ -140,7 +143,9 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
     const auto &a = *numbers.sites[wave.site], &b = *numbers.sites[relay.site];
     return maybe_sign(squared_norm(a.image - b.image) - square(b.weight - a.weight));
   };
-  const auto heavier = [&](const auto& numbers) { return maybe_sign(numbers.sites[relay.site]->weight - numbers.sites[wave.site]->weight); };
+  const auto heavier = [&](const auto& numbers) {
+    return maybe_sign(numbers.sites[relay.site]->weight - numbers.sites[wave.site]->weight);
+  };
   if (wave.root == relay.root || gap(ladder.filter()) || heavier(ladder.filter()) == Sign::negative) return false;
   if (waves_.is_own_relay(wave.site, relay.site) || waves_.is_own_relay(wave.cone_site[0], relay.site) ||
       waves_.is_own_relay(wave.cone_site[1], relay.site))
@@ -152,9 +157,12 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
 /// The boundary ray of the wave on which a relay that it eclipses lies, if any: several vertices may follow one another on a ray.
 int Contenders::ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
   for (std::size_t end = 0; wave.has_cone && end < 2; ++end) {
-    const auto side = [&](const auto& numbers) { return maybe_sign(cone_side(numbers, wave, end, numbers.sites[relay.site]->image)); };
+    const auto side = [&](const auto& numbers) {
+      return maybe_sign(cone_side(numbers, wave, end, numbers.sites[relay.site]->image));
+    };
     if (side(ladder.filter())) continue;
-    if (ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return side(numbers); }) == Sign::zero) return static_cast<int>(end);
+    if (ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return side(numbers); }) == Sign::zero)
+      return static_cast<int>(end);
   }
   return kNotTangent;
 }

@@ -134,8 +134,8 @@ std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::siz
   return first;
 }
 
-/// Looks after the view of `from` itself: if it ends before the events found (or before the corner, which `last` comes to), the place where it
-/// does is the next event; if it ends in their very point, that is noted.
+/// Looks after the view of `from` itself: if it ends before the events found (or before the corner, which `last` comes to), the
+/// place where it does is the next event; if it ends in their very point, that is noted.
 bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t last, const std::optional<Event>& previous,
                            std::vector<Event>& events) {
   if (events.empty() && from == last) return true;
@@ -165,8 +165,8 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
     }
   }
   if (!events.empty()) return true;
-  ladder_.fail(Predicate::edge_tie, "the walk ends in " + contenders_.name(from) + " on side " + std::to_string(side) + ", not in the corner's " +
-                                        contenders_.name(last));
+  ladder_.fail(Predicate::edge_tie, "the walk ends in " + contenders_.name(from) + " on side " + std::to_string(side) +
+                                        ", not in the corner's " + contenders_.name(last));
   return false;
 }
 
@@ -179,8 +179,8 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
     if (tie_is_at_corner(side, event)) return std::nullopt;
     return event;
   }
-  // A parent wins up to its boundary ray. Along the side over which it comes in, the cone begins at ray 0 and ends at ray 1; along the others
-  // the other way round.
+  // A parent wins up to its boundary ray. Along the side over which it comes in, the cone begins at ray 0 and ends at ray 1; along
+  // the others the other way round.
   const bool relay_takes_over = leaves != Contenders::kNotTangent;
   const std::uint32_t parent = relay_takes_over ? from : to, relay = relay_takes_over ? to : from;
   const int end = relay_takes_over ? leaves : arrives;
@@ -188,7 +188,8 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   if (last_ray != relay_takes_over) return std::nullopt;
   const std::uint8_t corner = contenders_[relay].corner;
   if (corner == side || corner == (side + 1) % 3) return std::nullopt;  // the ray meets this side in its corner only
-  return Event{from, to, contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end), false, std::nullopt};
+  return Event{from,  to,          contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end),
+               false, std::nullopt};
 }
 
 /// Two waves that tie at an end of the side by identity: whether the place where `to` overtakes `from` is that end.
@@ -280,7 +281,8 @@ MaybeSign OutlineWalk::compare(std::size_t side, const Event& a, const Event& b)
   return ladder_.decide(Predicate::edge_tie, test, [&] { return describe(side, a, "order") + " and " + contenders_.name(b.to); });
 }
 
-/// An event on a boundary ray, or several at one point, leave the order of the regions open: nothing but all that tie there tells it.
+/// An event on a boundary ray, or several at one point, leave the order of the regions open: nothing but all that tie there tells
+/// it.
 bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
   const Event& first = tied[0];
   Node node;

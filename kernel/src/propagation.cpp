@@ -131,7 +131,8 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
   if (low < emitted_weight_[v] - emitted_error_[v]) {
     superseded_ = true;
     emitted_weight_[v] = field_.distance[v];
-    emitted_error_[v] = field_.error[v] + kDistanceError * field_.distance[v];
+    const double slack = field_.error[v] + kDistanceError * field_.distance[v];
+    emitted_error_[v] = 2 * slack;  // the range doubles: vertices that lie close together cannot start one another anew without end
     mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
       if (emitted_[h] != kNone) field_.windows[emitted_[h]].packed |= WindowRecord::kDead;
       emitted_[h] = kNone;
@@ -141,7 +142,7 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
     } else if (kinds_[v] == VertexKind::relay) {
       for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next) emit_shadow(v, Candidate(list[c]));
     }
-    const double d = field_.distance[v], e = emitted_error_[v];
+    const double d = field_.distance[v], e = slack;
     mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
       const double along = d + frames_[h].length;
       relax(mesh_.target(h), {kNone, v, kNone, along, e + kDistanceError * along, {0, 0}});

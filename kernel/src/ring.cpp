@@ -18,11 +18,15 @@ PlanePoint<NT> negated(const PlanePoint<NT>& v) {
 }
 
 Predicate predicate_at(Node::Kind kind) {
-  return kind == Node::Kind::corner ? Predicate::corner_order : kind == Node::Kind::side ? Predicate::edge_tie : Predicate::conflict;
+  return kind == Node::Kind::corner ? Predicate::corner_order
+         : kind == Node::Kind::side ? Predicate::edge_tie
+                                    : Predicate::conflict;
 }
 
 std::string place_name(const Node& node) {
-  const char* kind = node.kind == Node::Kind::corner ? "corner " : node.kind == Node::Kind::side ? "a point of side " : "a point inside";
+  const char* kind = node.kind == Node::Kind::corner ? "corner "
+                     : node.kind == Node::Kind::side ? "a point of side "
+                                                     : "a point inside";
   return kind + (node.kind == Node::Kind::inside ? std::string() : std::to_string(node.where));
 }
 
@@ -42,7 +46,8 @@ PlanePoint<NT> Ring::to_image(const FacetNumbers<NT>& numbers, std::uint32_t wav
   return numbers.sites[contenders_[tied_[wave].contender].site]->image - node_point(waves_, numbers, *node_);
 }
 
-/// The unit vector to the image of i minus that of j, times a positive factor. Waves of one root that tie have images at one distance.
+/// The unit vector to the image of i minus that of j, times a positive factor. Waves of one root that tie have images at one
+/// distance.
 template <class NT>
 PlanePoint<NT> Ring::difference(const FacetNumbers<NT>& numbers, std::uint32_t i, std::uint32_t j) const {
   const Contender &a = contenders_[tied_[i].contender], &b = contenders_[tied_[j].contender];
@@ -55,11 +60,16 @@ PlanePoint<NT> Ring::difference(const FacetNumbers<NT>& numbers, std::uint32_t i
 template <class NT>
 PlanePoint<NT> Ring::vector(const FacetNumbers<NT>& numbers, const Direction& d) const {
   switch (d.kind) {
-    case Direction::Kind::side: return numbers.side[d.a].direction;
-    case Direction::Kind::back: return negated(numbers.side[d.a].direction);
-    case Direction::Kind::away: return negated(to_image(numbers, d.a));
-    case Direction::Kind::towards: return to_image(numbers, d.a);
-    case Direction::Kind::overtaking: break;
+    case Direction::Kind::side:
+      return numbers.side[d.a].direction;
+    case Direction::Kind::back:
+      return negated(numbers.side[d.a].direction);
+    case Direction::Kind::away:
+      return negated(to_image(numbers, d.a));
+    case Direction::Kind::towards:
+      return to_image(numbers, d.a);
+    case Direction::Kind::overtaking:
+      break;
   }
   const PlanePoint<NT> gain = difference(numbers, d.b, d.a);
   return {gain.y, -gain.x};
@@ -111,7 +121,8 @@ MaybeSign Ring::at_ray(const Contender& wave, std::size_t end) {
   const bool at_cone_vertex = node_->kind == Node::Kind::corner && wave.cone[end] == waves_.corner[node_->where];
   const bool on_own_ray = node_->ray == wave.cone_site[end] && node_->ray_end == end;
   if (at_cone_vertex || on_own_ray) return Sign::zero;
-  return decide([&](const auto& numbers) { return maybe_sign(cone_side(numbers, wave, end, node_point(waves_, numbers, *node_))); });
+  return decide(
+      [&](const auto& numbers) { return maybe_sign(cone_side(numbers, wave, end, node_point(waves_, numbers, *node_))); });
 }
 
 std::optional<bool> Ring::ties(const Node& node, std::uint32_t first, std::uint32_t other) {
@@ -128,8 +139,9 @@ std::optional<bool> Ring::ties(const Node& node, std::uint32_t first, std::uint3
     }
     return open ? std::nullopt : std::optional(true);
   };
-  return ladder_.decide(predicate_at(node.kind), test,
-                        [&] { return "whether " + contenders_.name(other) + " ties with " + contenders_.name(first) + " at " + place_name(node); });
+  return ladder_.decide(predicate_at(node.kind), test, [&] {
+    return "whether " + contenders_.name(other) + " ties with " + contenders_.name(first) + " at " + place_name(node);
+  });
 }
 
 bool Ring::load(const Node& node, std::span<const std::uint32_t> tied) {
@@ -154,8 +166,8 @@ std::optional<bool> Ring::seen(std::uint32_t i, const Direction& d, Beside besid
   const Direction away{Direction::Kind::away, i, 0};
   for (std::size_t end = 0; end < 2; ++end) {
     if (!tied_[i].on_ray[end]) continue;
-    MaybeSign left = turn(away, d);                 // of the ray; the cone is on the right of ray 0 and on the left of ray 1
-    if (left == Sign::zero) {                       // turning on, one leaves it to the left, or to the right if d points back
+    MaybeSign left = turn(away, d);  // of the ray; the cone is on the right of ray 0 and on the left of ray 1
+    if (left == Sign::zero) {        // turning on, one leaves it to the left, or to the right if d points back
       left = along(away, d);
       if (left && beside == Beside::before) left = -*left;
     }
@@ -186,7 +198,8 @@ std::optional<bool> Ring::same_direction(std::uint32_t i, std::uint32_t j) {
   return known > 0;
 }
 
-/// Of two waves that tie: positive if j has the greater weight. If they come along one line, it started on the way of i, which is nowhere farther.
+/// Of two waves that tie: positive if j has the greater weight. If they come along one line, it started on the way of i, which is
+/// nowhere farther.
 MaybeSign Ring::behind(std::uint32_t i, std::uint32_t j) {
   const std::uint32_t a = tied_[i].contender, b = tied_[j].contender;
   if (contenders_.eclipses(a, b)) return Sign::positive;
@@ -248,14 +261,16 @@ std::optional<Ring::Direction> Ring::next_change(const Direction& from, std::uin
   return first;
 }
 
-/// Along a side d, where two waves with mirrored directions grow alike to first order: the one with the lower weight is nearer there, and keeps
-/// a part of the facet between the side and a bisector that touches it. That wave, if it is not `inward`, the nearest just inside.
+/// Along a side d, where two waves with mirrored directions grow alike to first order: the one with the lower weight is nearer
+/// there, and keeps a part of the facet between the side and a bisector that touches it. That wave, if it is not `inward`, the
+/// nearest just inside.
 std::optional<std::uint32_t> Ring::along_side(const Direction& d, Beside beside, std::uint32_t inward) {
   if (tied_[inward].starts_here) return inward;
   for (std::uint32_t i = 0; i < tied_.size(); ++i) {
     const std::uint32_t a = tied_[i].contender, b = tied_[inward].contender;
     if (tied_[i].starts_here || contenders_[a].root == contenders_[b].root) continue;
-    const MaybeSign slope = decide([&](const auto& numbers) { return maybe_sign(dot(vector(numbers, d), difference(numbers, i, inward))); });
+    const MaybeSign slope =
+        decide([&](const auto& numbers) { return maybe_sign(dot(vector(numbers, d), difference(numbers, i, inward))); });
     if (slope && *slope != Sign::zero) continue;
     const auto visible = seen(i, d, beside);
     const auto one_line = same_direction(i, inward);
@@ -296,7 +311,8 @@ std::vector<std::uint32_t> Ring::regions(const Node& node, std::span<const std::
     const auto inside = comes_before(at, *next, end);
     if (!inside) return {};
     if (!*inside) {
-      if (node.kind != Node::Kind::inside) return add_slivers(begin, end, first, *winner, result) ? result : std::vector<std::uint32_t>();
+      if (node.kind != Node::Kind::inside)
+        return add_slivers(begin, end, first, *winner, result) ? result : std::vector<std::uint32_t>();
       if (result.size() > 1 && result.front() == result.back()) result.pop_back();
       return result;
     }

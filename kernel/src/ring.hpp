@@ -9,17 +9,19 @@
 
 namespace gvd::kernel {
 
-/// The regions round one point of a facet where several waves tie (docs/architecture.md#ties-at-a-point). Away from the point in direction e a wave
-/// grows by -e.u, u being the unit vector to its image, and it is there only in the directions in which its cone goes on: the regions are
-/// the upper envelope of the e.u over the angle of the facet. Nothing is assumed of the position of the images, cones or weights.
+/// The regions round one point of a facet where several waves tie (docs/architecture.md#ties-at-a-point). Away from the point in
+/// direction e a wave grows by -e.u, u being the unit vector to its image, and it is there only in the directions in which its cone
+/// goes on: the regions are the upper envelope of the e.u over the angle of the facet. Nothing is assumed of the position of the
+/// images, cones or weights.
 class Ring {
  public:
   using Node = FacetTessellation::Node;
 
-  Ring(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder) : waves_(waves), contenders_(contenders), ladder_(ladder) {}
+  Ring(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder)
+      : waves_(waves), contenders_(contenders), ladder_(ladder) {}
 
-  /// The contenders that are nearest in an angle of directions, counter-clockwise; at a corner or on a side from the direction in which the
-  /// outline goes on to the one it came from (there one may appear twice), inside beginning anywhere. Empty on failure.
+  /// The contenders that are nearest in an angle of directions, counter-clockwise; at a corner or on a side from the direction in
+  /// which the outline goes on to the one it came from (there one may appear twice), inside beginning anywhere. Empty on failure.
   /// Pre: `tied` are contenders whose closed cones contain the point, which they reach at one distance; no nearer one does.
   std::vector<std::uint32_t> regions(const Node& node, std::span<const std::uint32_t> tied);
 
@@ -35,7 +37,7 @@ class Ring {
   };
   struct Wave {
     std::uint32_t contender = 0;
-    bool starts_here = false;                 ///< the wave of the corner itself
+    bool starts_here = false;                  ///< the wave of the corner itself
     std::array<bool, 2> on_ray{false, false};  ///< the point lies on this boundary ray of the cone
   };
 
@@ -48,7 +50,8 @@ class Ring {
   std::optional<bool> same_direction(std::uint32_t i, std::uint32_t j);
   robust::MaybeSign behind(std::uint32_t i, std::uint32_t j);
   std::optional<std::uint32_t> along_side(const Direction& d, Beside beside, std::uint32_t inward);
-  bool add_slivers(const Direction& begin, const Direction& end, std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& regions);
+  bool add_slivers(const Direction& begin, const Direction& end, std::uint32_t first, std::uint32_t last,
+                   std::vector<std::uint32_t>& regions);
   std::optional<Direction> next_change(const Direction& from, std::uint32_t winner);
   std::optional<bool> comes_before(const Direction& from, const Direction& a, const Direction& b);
   std::optional<int> quadrant(const Direction& from, const Direction& d);

@@ -39,14 +39,15 @@ BisectorVertices::Found* BisectorVertices::find(std::uint32_t i, std::uint32_t j
     const auto ring = found_.back().open;
     for (std::size_t a = 0; ring.size() > 3 && a < ring.size(); ++a)
       for (std::size_t b = a + 1; b < ring.size(); ++b)
-        for (std::size_t c = b + 1; c < ring.size(); ++c) remembered(ring[a], ring[b], ring[c]) = static_cast<std::int32_t>(found_.size());
+        for (std::size_t c = b + 1; c < ring.size(); ++c)
+          remembered(ring[a], ring[b], ring[c]) = static_cast<std::int32_t>(found_.size());
   }
   return ladder_.failed() ? nullptr : &found_[static_cast<std::size_t>(entry - 1)];
 }
 
-/// Empty if identity excludes a vertex. The boundary ray of a parent through its cone vertex 0 has the relay on its left, through 1 on its
-/// right; both tie along it until a third wave takes over, so the ray ends in a vertex (relay, parent, third) or (parent, relay, third), and
-/// never begins in one.
+/// Empty if identity excludes a vertex. The boundary ray of a parent through its cone vertex 0 has the relay on its left, through 1
+/// on its right; both tie along it until a third wave takes over, so the ray ends in a vertex (relay, parent, third) or (parent,
+/// relay, third), and never begins in one.
 std::optional<BisectorVertices::Triple> BisectorVertices::triple(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
   Triple result{{i, j, k}, false, j, 0, 0, 0};
   int tangent_pairs = 0;
@@ -81,14 +82,14 @@ std::optional<BisectorVertices::Triple> BisectorVertices::triple(std::uint32_t i
 template <class NT>
 BisectorVertex<NT> BisectorVertices::construct(const FacetNumbers<NT>& numbers, const Triple& t) const {
   const auto site = [&](std::uint32_t wave) { return contenders_[wave].site; };
-  if (t.on_ray)
-    return vertex_on_ray(waves_, numbers, contenders_[t.parent].cone_site[t.ray_end], site(t.pivot), site(t.other));
+  if (t.on_ray) return vertex_on_ray(waves_, numbers, contenders_[t.parent].cone_site[t.ray_end], site(t.pivot), site(t.other));
   return vertex_of(waves_, numbers, site(t.waves[0]), site(t.waves[1]), site(t.waves[2]));
 }
 
 template <class NT>
-BisectorVertices::Verdict BisectorVertices::conflict(const FacetNumbers<NT>& numbers, const Triple& t, const BisectorVertex<NT>& vertex,
-                                                     const PlanePoint<NT>& p, std::uint32_t rival) const {
+BisectorVertices::Verdict BisectorVertices::conflict(const FacetNumbers<NT>& numbers, const Triple& t,
+                                                     const BisectorVertex<NT>& vertex, const PlanePoint<NT>& p,
+                                                     std::uint32_t rival) const {
   const Contender& wave = contenders_[rival];
   std::array<MaybeSign, 2> inside{Sign::positive, Sign::positive};
   const auto look = [&] {  // whether the rival sees p
@@ -103,7 +104,8 @@ BisectorVertices::Verdict BisectorVertices::conflict(const FacetNumbers<NT>& num
     // The parent of one of the three is nearer strictly inside its cone, equal on the ray.
     if (!look()) return Verdict::pass;
     if (!inside[0] || !inside[1]) return Verdict::open;
-    return end == Contenders::kNotTangent || inside[static_cast<std::size_t>(end)] == Sign::positive ? Verdict::reject : Verdict::tie;
+    return end == Contenders::kNotTangent || inside[static_cast<std::size_t>(end)] == Sign::positive ? Verdict::reject
+                                                                                                     : Verdict::tie;
   }
   const auto relative = relative_wave(waves_, numbers, contenders_[t.pivot].site, wave.site);
   const MaybeSign nearer = predicates::conflict(relative, vertex);
@@ -139,7 +141,8 @@ Predicate BisectorVertices::predicate_of(std::uint32_t what) {
 }
 
 std::string BisectorVertices::describe(const Triple& t, std::uint32_t what) const {
-  std::string text = "vertex of " + contenders_.name(t.waves[0]) + ", " + contenders_.name(t.waves[1]) + ", " + contenders_.name(t.waves[2]);
+  std::string text =
+      "vertex of " + contenders_.name(t.waves[0]) + ", " + contenders_.name(t.waves[1]) + ", " + contenders_.name(t.waves[2]);
   if (what == kExistence) return text + ": whether there is one";
   if (what < kCones) return text + ": against side " + std::to_string(what - kSides);
   if (what < kRivals) return text + ": boundary ray of the cone of " + contenders_.name(t.waves[(what - kCones) / 2]);

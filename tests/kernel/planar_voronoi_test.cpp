@@ -212,7 +212,25 @@ TEST(PlanarVoronoi, IntegerGrids) {
   }
 }
 
+TEST(PlanarVoronoi, LatticeSources) {
+  // Sources on a lattice: four cocircular round every vertex, edges along mesh edges and through mesh vertices.
+  for (const std::uint32_t step : {2u, 3u}) {
+    const auto mesh = test::flat_grid(2 * step, 2 * step);
+    std::vector<Source> sources;
+    for (std::uint32_t j = 0; j <= 2; ++j)
+      for (std::uint32_t i = 0; i <= 2; ++i) sources.push_back(test::at_vertex(Mesh(mesh), j * step * (2 * step + 1) + i * step));
+    expect_planar_voronoi(mesh, mesh, {2 * step, 2 * step}, level, sources, "step " + std::to_string(step));
+  }
+}
 
+TEST(PlanarVoronoi, RandomLatticeSources) {
+  Random random(33);
+  for (std::uint32_t round = 0; round < 4; ++round) {
+    const auto mesh = test::flat_grid(6, 5);
+    const auto sources = random_sources(Mesh(mesh), random, 4 + 2 * round, true);
+    expect_planar_voronoi(mesh, mesh, {6, 5}, level, sources, "round " + std::to_string(round));
+  }
+}
 
 TEST(PlanarVoronoi, TiltedPlane) {
   // Turned about the x axis by the angle of 3-4-5.

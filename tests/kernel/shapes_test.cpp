@@ -16,6 +16,13 @@ namespace {
 
 using test::at_vertex;
 
+VertexId vertex_at(const Mesh& mesh, const Point& p) {
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+    if (mesh.point(v) == p) return v;
+  ADD_FAILURE() << "no vertex there";
+  return kNone;
+}
+
 Source in_face(const Mesh& mesh, FaceId f, long a, long b, long c, double weight = 0) {
   return {point_in_face(mesh, f, {mpq_class(a), mpq_class(b), mpq_class(c)}), weight};
 }
@@ -116,6 +123,48 @@ TEST(Shapes, WeightedTripleWithTwoVertices) {
   for (const DualEdge& e : d.dual) EXPECT_EQ(e.edges.size(), e.sources[1] == 1 ? 2u : 1u);
   EXPECT_EQ(d.cells[0].euler, 1);
   EXPECT_NEAR(total_area(d), 400, 1e-11);
+}
+
+TEST(Shapes, EdgeEndsAtARelayingCorner) {
+  // Two arms of a corridor of width 2 that meet at a right angle; one source in each, 3 from the inner corner (2, 2) along its
+  // walls. They are separated by the diagonal, from the inner corner to the outer one.
+  const auto full = test::flat_grid(6, 6);
+  test::MeshArrays arrays{full.points, {}};
+  for (std::uint32_t j = 0; j < 6; ++j)
+    for (std::uint32_t i = 0; i < 6; ++i)
+      if (i < 2 || j < 2)
+        for (const std::uint32_t k : {0u, 1u}) arrays.faces.push_back(full.faces[2 * (j * 6 + i) + k]);
+  const Mesh mesh(test::without_isolated(arrays));
+  const VertexId corner = vertex_at(mesh, {2, 2, 0});
+  const std::vector<Source> sources = {at_vertex(mesh, vertex_at(mesh, {5, 2, 0})), at_vertex(mesh, vertex_at(mesh, {2, 5, 0}))};
+  const auto solution = solve(mesh, sources);
+  EXPECT_EQ(solution.distance(corner), 3);
+  EXPECT_EQ(solution.nearest(corner).size(), 2u);
+  EXPECT_EQ(solution.summary().ties, 3u);
+  ASSERT_TRUE(test::is_certified(solution));
+  const Diagram& d = solution.diagram();
+  ASSERT_EQ(d.edges.size(), 1u);
+  EXPECT_EQ(d.boundary_meetings.size(), 2u);
+  EXPECT_TRUE(d.shared.empty());
+  EXPECT_NEAR(d.cells[0].area, 10, 1e-13);
+}
+
+TEST(Shapes, SharedRegionOfTwoSourcesOneSaddle) {
+  // A hole's corner hides both sources from the region behind it; both are 5 from it: (3, 4) and (4, 3) before the corner.
+  const Mesh mesh(test::plane_with_hole(16, 16, 6, 10, 6, 10));
+  const VertexId corner = vertex_at(mesh, {6, 10, 0});
+  const std::vector<Source> sources = {at_vertex(mesh, vertex_at(mesh, {3, 6, 0})), at_vertex(mesh, vertex_at(mesh, {2, 7, 0}))};
+  const auto solution = solve(mesh, sources);
+  ASSERT_TRUE(test::is_certified(solution));
+  const auto told = solution.nearest(corner);
+  EXPECT_EQ(told.size(), 2u);
+  EXPECT_EQ(solution.distance(corner), 5);
+  ASSERT_EQ(solution.diagram().shared.size(), 1u);
+  EXPECT_GT(solution.diagram().shared[0].area, 0);
+  const auto behind = solution.nearest(vertex_at(mesh, {10, 11, 0}));
+  EXPECT_EQ(behind.size(), 2u);
+  const auto& d = solution.diagram();
+  EXPECT_NEAR(total_area(d) - d.shared[0].area, 240, 1e-10);
 }
 
 TEST(Shapes, RegionTouchesItsFacetOnlyAtTheRelay) {

@@ -1,0 +1,36 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "support/truth.hpp"
+
+/// Sources a few roundings away from a vertex or an edge of their face.
+namespace gvd::kernel {
+namespace {
+
+Source in_face(const Mesh& mesh, FaceId face, const std::array<double, 3>& weights, double weight) {
+  return {point_in_face(mesh, face, {mpq_class(weights[0]), mpq_class(weights[1]), mpq_class(weights[2])}), weight};
+}
+
+TEST(CloseVertices, DoNotStartOneAnotherAnewWithoutEnd) {
+  // Found by fuzzing: the errors of the distances are larger than the lengths of the edges between the vertices.
+  const test::MeshArrays arrays{
+      {{0, 0, 0.6183791283850657}, {1, 0, 0.2401688058210767},   {2, 0, 0.355871481752843},    {4, 0, 0.8937850917403974},
+       {5, 0, 0.8731528746183321}, {6, 0, 0.34156749703644196},  {0, 1, 0.3743148107010965},   {1, 1, 0.9522589592154977},
+       {2, 1, 0.7312204628116413}, {3, 1, 0.036780451136788295}, {4, 1, 0.034317673709400864}, {5, 1, 0.5657493951613488},
+       {6, 1, 0.9895031064137727}, {0, 2, 0.03402129426518885},  {1, 2, 0.05794959709853709},  {2, 2, 0.0734693133619686},
+       {3, 2, 0.7580477467023521}, {4, 2, 0.9779980063573476},   {5, 2, 0.6113452380294746},   {6, 2, 0.13072966578813594}},
+      {{0, 1, 7},   {0, 7, 6},   {1, 2, 8},    {1, 8, 7},    {3, 4, 11},   {3, 11, 10}, {4, 5, 12},
+       {4, 12, 11}, {6, 7, 14},  {6, 14, 13},  {7, 8, 15},   {7, 15, 14},  {8, 9, 16},  {8, 16, 15},
+       {9, 10, 17}, {9, 17, 16}, {10, 11, 18}, {10, 18, 17}, {11, 12, 19}, {11, 19, 18}}};
+  const Mesh mesh(arrays);
+  const std::vector<Source> sources = {
+      in_face(mesh, 12, {3.051757812500001e-05, 1, 0}, 0.5), in_face(mesh, 3, {0, 1, 3.5527136788005005e-15}, 1),
+      in_face(mesh, 1, {1, 0.00048828125, 0}, 0.25), in_face(mesh, 19, {1, 1.8189894035458573e-12, 0}, 0)};
+  const auto solution = solve(mesh, sources);
+  EXPECT_LT(solution.summary().windows_propagated, 1000u);
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) EXPECT_LT(solution.distance(v), 10);
+}
+
+}  // namespace
+}  // namespace gvd::kernel

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/truth.hpp"
+
+/// Inputs on which many decisions are exact ties: they must end certified, and be right.
+namespace gvd::kernel {
+namespace {
+
+using test::MeshArrays;
+using test::Random;
+
+/// Every label set and distance against one run per source.
+void expect_right(const Mesh& mesh, const std::vector<Source>& sources, const std::string& what) {
+  SCOPED_TRACE(what);
+  const auto solution = solve(mesh, sources);
+  EXPECT_TRUE(test::is_certified(solution));
+  std::vector<std::vector<double>> alone;
+  for (const Source& source : sources) {
+    const auto single = solve(mesh, {source});
+    auto& distances = alone.emplace_back();
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) distances.push_back(single.distance(v));
+  }
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+    double least = INFINITY;
+    for (const auto& distances : alone) least = std::min(least, distances[v]);
+    ASSERT_EQ(solution.distance(v), least) << "vertex " << v;
+    for (const SourceId s : solution.nearest(v)) EXPECT_EQ(alone[s][v], least) << "vertex " << v << ", source " << s;
+  }
+}
+
+std::vector<Source> random_vertices(const Mesh& mesh, Random& random, bool weighted) {
+  std::vector<Source> sources;
+  const std::uint32_t count = 1 + random.below(6);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    sources.push_back(test::at_vertex(mesh, random.below(mesh.vertex_count())));
+    if (weighted) sources.back().weight = random.below(3);
+  }
+  return sources;
+}
+
+/// Meshes whose faces are all of one square class.
+MeshArrays one_class(std::uint32_t kind, Random& random) {
+  const auto diagonal = static_cast<test::Diagonal>(random.below(3));
+  const std::uint32_t a = 1 + random.below(4), b = 1 + random.below(4);
+  switch (kind) {
+    case 0:
+      return test::flat_grid(2 + a, 2 + b, diagonal);
+    case 1:
+      return test::plane_with_hole(5 + a, 5 + b, 2, 4, 2, 4 + b % 2);
+    case 2:
+      return test::cube(a);
+    case 3:
+      return test::staircase(a, b);
+    case 4:
+      return test::box({double(a), double(b), 2}, {a, b, 1 + a % 2});
+    default:
+      return test::roof(2 * a, b, 4, 4);
+  }
+}
+
+TEST(TiedInputs, OneSquareClass) {
+  Random random(91);
+  for (std::uint32_t round = 0; round < 90; ++round) {
+    const Mesh mesh(one_class(round % 5, random));
+    expect_right(mesh, random_vertices(mesh, random, round % 3 == 0), "round " + std::to_string(round));
+  }
+}
+
+TEST(TiedInputs, CubeWithSourcesInAllCorners) {
+  for (const std::uint32_t n : {1u, 2u, 3u, 10u}) {
+    SCOPED_TRACE(n);
+    const Mesh mesh(test::cube(n));
+    std::vector<Source> sources;
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+      const Point& p = mesh.point(v);
+      if (std::all_of(p.begin(), p.end(), [](double x) { return x == 0 || x == 1; })) sources.push_back(test::at_vertex(mesh, v));
+    }
+    ASSERT_EQ(sources.size(), 8u);
+    const auto solution = solve(mesh, sources);
+    ASSERT_TRUE(test::is_certified(solution));
+    const Diagram& d = solution.diagram();
+    EXPECT_EQ(d.vertices.size(), 6u);
+    for (const GvdVertex& v : d.vertices) {
+      EXPECT_EQ(v.edges.size(), 4u);
+      EXPECT_EQ(v.sources.size(), 4u);
+      const Point& p = d.points[v.point].position;  // the middle of a side
+      EXPECT_EQ(std::count(p.begin(), p.end(), 0.5), 2);
+    }
+    EXPECT_EQ(d.edges.size(), 12u);
+    for (const Cell& cell : d.cells) {
+      EXPECT_EQ(cell.neighbours.size(), 3u);
+      EXPECT_NEAR(cell.area, 0.75, 1e-12);
+    }
+  }
+}
+
+TEST(TiedInputs, FlatLattice) {
+  for (const std::uint32_t step : {3u, 4u, 5u}) {
+    SCOPED_TRACE(step);
+    const std::uint32_t n = 4 * step;
+    const Mesh mesh(test::flat_grid(n, n));
+    std::vector<Source> sources;
+    for (std::uint32_t j = 0; j <= n; j += step)
+      for (std::uint32_t i = 0; i <= n; i += step) sources.push_back(test::at_vertex(mesh, j * (n + 1) + i));
+    const auto solution = solve(mesh, sources);
+    ASSERT_TRUE(test::is_certified(solution));
+    const Diagram& d = solution.diagram();
+    EXPECT_EQ(d.vertices.size(), 16u);
+    for (const GvdVertex& v : d.vertices) EXPECT_EQ(v.edges.size(), 4u);
+    EXPECT_EQ(d.break_points.size(), 0u);
+    EXPECT_EQ(d.edges.size(), 40u);
+    for (SourceId s = 0; s < 25; ++s) {
+      const auto part = [](SourceId k) { return k == 0 || k == 4 ? 0.5 : 1.0; };
+      EXPECT_NEAR(d.cells[s].area, part(s % 5) * part(s / 5) * step * step, 1e-10);
+    }
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+      const auto ways = [&](double x) { return std::fmod(2 * x, 2 * step) == step ? 2u : 1u; };
+      EXPECT_EQ(solution.nearest(v).size(), ways(mesh.point(v)[0]) * ways(mesh.point(v)[1]));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gvd::kernel
