@@ -11,6 +11,9 @@
 #include "gvd/io/version.hpp"
 #include "gvd/io/vtp_writer.hpp"
 #include "messages.hpp"
+#ifdef GVD_WITH_FUZZ
+#include "fuzz/cli/fuzz_command.hpp"
+#endif
 
 namespace gvd::cli {
 
@@ -109,12 +112,19 @@ int run(int argc, char** argv) {
   add_info(app, options);
   add_distance(app, options);
   add_compute(app, options);
+#ifdef GVD_WITH_FUZZ
+  fuzz::FuzzArguments fuzz_arguments;
+  fuzz::add_fuzz_command(app, fuzz_arguments);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kCertified : kUsage;
   }
   const std::map<std::string, std::function<int(const Options&)>> commands = {
+#ifdef GVD_WITH_FUZZ
+      {"fuzz", [&](const Options&) { return fuzz::run_fuzz_command(fuzz_arguments); }},
+#endif
       {"info", run_info}, {"distance", run_distance}, {"compute", run_compute}};
   try {
     return commands.at(app.get_subcommands().front()->get_name())(options);

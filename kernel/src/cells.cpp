@@ -230,15 +230,18 @@ class PieceMaker {
 
   void sum_areas() {
     std::vector<double> area(in_.label_sets.size(), 0);
+    std::vector<bool> present(in_.label_sets.size());  // an area may underflow
     const auto add = [&](LabelSetId labels, double value) {
-      if (labels != kNone) area[labels] += value;
+      if (labels == kNone) return;
+      area[labels] += value;
+      present[labels] = true;
     };
     for (FaceId f = 0; f < in_.input.face_count(); ++f) add(d_.face_label[f], face_area(in_.input, f));
     for (const Loop& loop : loops_)
       if (d_.face_label[loop.face] == kNone) add(loop.labels, loop.area);
     for (LabelSetId labels = 0; labels < area.size(); ++labels) {
       for (const SourceId source : in_.label_sets[labels]) d_.cells[source].area += area[labels];
-      if (in_.label_sets[labels].size() > 1 && area[labels] > 0) d_.shared.push_back({labels, area[labels]});
+      if (in_.label_sets[labels].size() > 1 && present[labels]) d_.shared.push_back({labels, area[labels]});
     }
   }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gvd/io/mesh_reader.hpp"
-#include "support/brute_force.hpp"
+#include "fuzz/properties/brute_force.hpp"
 #include "support/truth.hpp"
 
 namespace gvd::kernel {
@@ -15,7 +15,7 @@ namespace {
 
 using robust::Mpfr;
 using test::at_vertex;
-using test::BruteForce;
+using fuzz::BruteForce;
 using test::inside_edge;
 using test::inside_face;
 using test::Random;
@@ -23,7 +23,7 @@ using test::Random;
 /// Compares distances and, unless something was undecided, nearest sources with the enumeration.
 void expect_brute_force(const Mesh& mesh, const std::vector<Source>& sources, const std::string& what, bool certified = true) {
   SCOPED_TRACE(what);
-  test::ExactMesh exact(mesh);
+  fuzz::ExactMesh exact(mesh);
   std::vector<std::uint32_t> roots;
   for (const Source& s : sources) roots.push_back(exact.insert(exact_position(mesh, s.at)));
   const BruteForce truth(exact);

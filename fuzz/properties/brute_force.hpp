@@ -12,7 +12,7 @@
 #include "gvd/robust/mpfr_float.hpp"
 
 /// Geodesic distances by enumeration, with 512 bits: no windows, no pruning, none of the kernel's formulas.
-namespace gvd::test {
+namespace gvd::fuzz {
 
 /// A mesh with exact positions, into which sources are inserted by splitting. Faces are oriented alike.
 class ExactMesh {
@@ -170,4 +170,4 @@ class BruteForce {
   std::size_t strips_ = 0;
 };
 
-}  // namespace gvd::test
+}  // namespace gvd::fuzz

@@ -1,0 +1,133 @@
+#include "fuzz/cli/fuzz_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "cli/arguments.hpp"
+#include "gvd/io/staged_files.hpp"
+
+namespace gvd::fuzz {
+namespace {
+
+void add_time(CLI::App& app, const std::string& name, double& seconds, const std::string& help) {
+  app.add_option_function<std::string>(
+         name,
+         [&seconds, name](const std::string& text) {
+           try {
+             seconds = cli::parse_seconds(text);
+           } catch (const std::invalid_argument& e) {
+             throw CLI::ValidationError(name, e.what());
+           }
+         },
+         help)
+      ->type_name("TIME");
+}
+
+void add_shard(CLI::App& app, CampaignOptions& campaign) {
+  app.add_option_function<std::string>(
+         "--shard",
+         [&campaign](const std::string& text) {
+           unsigned long long shard = 0, shards = 0;
+           if (std::sscanf(text.c_str(), "%llu/%llu", &shard, &shards) != 2 || shards == 0 || shard >= shards)
+             throw CLI::ValidationError("--shard", "'" + text + "' is not i/N with 0 <= i < N");
+           campaign.shard = shard;
+           campaign.shards = shards;
+         },
+         "Only every N-th case, from the i-th on")
+      ->type_name("i/N");
+}
+
+template <class Table>
+CLI::Validator one_of(const Table& table) {
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.emplace_back(entry.name);
+  return CLI::IsMember(names);
+}
+
+void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+
+int list() {
+  print("properties (* needs further solutions: two of these are drawn for each case)\n");
+  for (const Property& p : properties()) print(fmt::format("  {} {:<34} {}\n", p.solves ? '*' : ' ', p.name, p.says));
+  print("families\n");
+  for (const Family& f : families()) print(fmt::format("    {:<34} {}\n", f.name, f.about));
+  print("patterns of sources\n");
+  for (const Pattern& p : patterns()) print(fmt::format("    {}\n", p.name));
+  return 0;
+}
+
+int replay_file(const FuzzArguments& a) {
+  const CaseResult result = replay(a.replay, a.campaign.choice);
+  print(to_line(result) + "\n");
+  for (const auto& [property, what] : result.violated) fmt::print(stderr, "gvd: fuzz: {}: {}\n", property, what);
+  return result.violated.empty() ? 0 : kFindings;
+}
+
+int merge_files(const FuzzArguments& a) {
+  std::vector<CaseResult> all;
+  for (const auto& file : a.merge) {
+    const auto part = read_results(file);
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  Tally tally;
+  const auto once = merged(std::move(all));
+  for (const auto& result : once) tally.add(result);
+  if (!a.campaign.out.empty()) {
+    const std::filesystem::path out = a.campaign.out;
+    io::StagedFiles files(out.parent_path(), {out.filename().string()});
+    files.write(out.filename().string(), [&](std::ostream& stream) {
+      for (const auto& result : once) stream << to_line(result) << '\n';
+    });
+    files.commit();
+  }
+  print(tally.text());
+  return tally.violations() == 0 ? 0 : kFindings;
+}
+
+}  // namespace
+
+void add_fuzz_command(CLI::App& app, FuzzArguments& a) {
+  CampaignOptions& c = a.campaign;
+  auto* fuzz = app.add_subcommand("fuzz", "Attack the kernel with generated meshes (docs/fuzzing.md)");
+  fuzz->add_option("--cases", c.cases, "End after so many cases");
+  add_time(*fuzz, "--time", c.seconds, "End after this time, as 10m");
+  fuzz->add_option("--seed", c.seed, "Seed of the campaign")->capture_default_str();
+  add_shard(*fuzz, c);
+  fuzz->add_option("--property", c.choice.only, "Only this property")->check(one_of(properties()));
+  fuzz->add_flag("--thorough", c.choice.thorough, "All properties on each case, also those that need further solutions");
+  fuzz->add_option("--family", c.wish.family, "Only meshes of this family")->check(one_of(families()));
+  fuzz->add_option("--pattern", c.wish.pattern, "Only sources of this pattern")->check(one_of(patterns()));
+  fuzz->add_option("--size", c.wish.size, "Size of the meshes: about 2 SIZE^2 faces")->check(CLI::Range(1u, 200u));
+  fuzz->add_option("--sources", c.wish.sources, "Number of sources")->check(CLI::Range(1u, 100000u));
+  fuzz->add_option("--weighted", c.wish.weighted, "0: no weights, 1: weights")->check(CLI::Range(0, 1));
+  fuzz->add_option("--out", c.out, "Results, one JSON object a line; cases that are there already are not run again")
+      ->type_name("FILE.jsonl");
+  fuzz->add_option("--findings", c.findings, "Folder for failing cases")->capture_default_str()->type_name("DIR");
+  add_time(*fuzz, "--shrink-time", c.shrink_seconds, "Longest time to spend on shrinking a failing case");
+  fuzz->add_option("--replay", a.replay, "Look at a written case again")->type_name("FILE.off");
+  fuzz->add_flag("--list", a.list, "List properties, families and patterns");
+  fuzz->add_flag("-q,--quiet", c.quiet, "No progress on the standard error");
+  auto* merge = fuzz->add_subcommand("merge", "Join results files: each case once, in order");
+  merge->add_option("FILES", a.merge, "Results files")->required()->type_name("FILE.jsonl");
+  merge->add_option("--out", c.out, "Where to write the joined results")->type_name("FILE.jsonl");
+  fuzz->footer(
+      "Exit code 1: something was found.\nExamples:\n"
+      "  gvd fuzz --time 10m --out results.jsonl\n"
+      "  gvd fuzz --cases 1000 --seed 7 --family slivers --property renumbering\n"
+      "  gvd fuzz merge part-*.jsonl --out results.jsonl\n");
+}
+
+int run_fuzz_command(const FuzzArguments& a) {
+  if (a.list) return list();
+  if (!a.merge.empty()) return merge_files(a);
+  if (!a.replay.empty()) return replay_file(a);
+  CampaignOptions campaign = a.campaign;
+  if (campaign.cases == 0 && campaign.seconds == 0) campaign.cases = 1000;
+  const Tally tally = run_campaign(campaign);
+  print(tally.text());
+  return tally.violations() == 0 ? 0 : kFindings;
+}
+
+}  // namespace gvd::fuzz

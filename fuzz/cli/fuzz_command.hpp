@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "fuzz/campaign/campaign.hpp"
+
+namespace gvd::fuzz {
+
+/// What the arguments of `gvd fuzz` said.
+struct FuzzArguments {
+  CampaignOptions campaign;
+  std::string replay;
+  std::vector<std::string> merge;
+  bool list = false, json = false;
+};
+
+/// Adds the command to the program.
+void add_fuzz_command(CLI::App& app, FuzzArguments& arguments);
+
+/// Returns an exit code: 0, or kFindings if something was found.
+int run_fuzz_command(const FuzzArguments& arguments);
+inline constexpr int kFindings = 1;
+
+}  // namespace gvd::fuzz
