@@ -28,9 +28,6 @@ namespace {
 std::uint64_t path_through(WindowId window) { return window; }
 std::uint64_t path_along_edge(VertexId root) { return (std::uint64_t{1} << 32) | root; }
 
-/// An exact weight of more roots than this is left to the MPFR stage.
-constexpr std::size_t kMostRoots = 4;
-
 }  // namespace
 
 FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f)
@@ -353,28 +350,24 @@ const predicates::Site<Exact>* FieldWaves::exact_site(std::size_t i) {
 bool FieldWaves::make_exact() {
   Precise& p = *precise_;
   const Frames& frames = resolution_.frames();
-  const ExactFace exact = frames.exact(face);
-  const Exact root = sqrt(Exact(exact.radicand));
-  const auto point = [&](const QuadraticPoint& z) { return PlanePoint<Exact>{Exact(z.x), Exact(z.y) * root}; };
-  const PlanePoint<Exact> apex = point(exact_apex(frames, 3 * face, exact.radicand));
+  const auto point = [](const predicates::RootPoint& z) { return PlanePoint<Exact>{Exact(z.x), Exact(z.y)}; };
+  const PlanePoint<Exact> apex = point(exact_apex(frames, 3 * face));
+  const Exact length = sqrt(Exact(frames.exact(face).squared[0]));
   p.exact_frame = std::make_unique<predicates::FacetFrame<Exact>>();
   p.exact_frame->apex = apex;
-  p.exact_frame->length = sqrt(Exact(exact.squared[0])).scaled(frames.scale());
+  p.exact_frame->length = length.scaled(frames.scale());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const auto weight = resolution_.exact_distance(sites[i].root);
-    if (!weight || weight->terms().size() > kMostRoots) return false;
+    if (!weight) return false;
     predicates::Site<Exact> site;
-    site.weight = sgn(weight->constant()) == 0 ? Exact(0.0) : Exact(weight->constant()) / sqrt(Exact(exact.squared[0]));
-    for (const auto& term : weight->terms())
-      site.weight = site.weight + Exact(term.coefficient) * sqrt(Exact(mpq_class(term.radicand / exact.squared[0])));
+    site.weight = *weight / length;
     if (sites[i].window == kNone) {
       site.image = sites[i].corner == 0 ? PlanePoint<Exact>{Exact(0.0), Exact(0.0)}
                    : sites[i].corner == 1 ? PlanePoint<Exact>{Exact(1.0), Exact(0.0)}
                                           : apex;
     } else {
-      const auto at = unfold_exact(frames, strips_[i], 3 * face + sites[i].side);
+      const auto at = unfold_exact(frames, strips_[i]);
       if (!at) return false;
-      // The unfolding's radicand is that of this face.
       site.has_cone = true;
       site.image = to_first_side(point(at->image), sites[i].side, apex);
       site.cone = {to_first_side(point(at->cone0), sites[i].side, apex), to_first_side(point(at->cone1), sites[i].side, apex)};

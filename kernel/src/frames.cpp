@@ -105,17 +105,30 @@ ExactFace Frames::exact(FaceId f) const {
 
 std::uint32_t Frames::square_class(FaceId f) const {
   const std::scoped_lock lock(classes_.mutex);
+  if (!classes_.of_face.empty() && classes_.of_face[f] != kNone) return classes_.of_face[f];
+  return class_of(f, exact(f).radicand);
+}
+
+/// Pre: the mutex is locked.
+std::uint32_t Frames::class_of(FaceId f, const mpq_class& radicand) const {
   if (classes_.of_face.empty()) classes_.of_face.assign(mesh_.face_count(), kNone);
   if (classes_.of_face[f] != kNone) return classes_.of_face[f];
-  const mpq_class radicand = exact(f).radicand;
   const std::uint64_t signature = robust::square_class_signature(radicand);
   const auto [first, last] = classes_.by_signature.equal_range(signature);
   for (auto it = first; it != last; ++it)
     if (robust::same_square_class(classes_.representative[it->second], radicand)) return classes_.of_face[f] = it->second;
   const auto id = static_cast<std::uint32_t>(classes_.representative.size());
   classes_.representative.push_back(radicand);
+  classes_.root.emplace_back(1, radicand);
   classes_.by_signature.emplace(signature, id);
   return classes_.of_face[f] = id;
+}
+
+robust::RootSum Frames::doubled_area(FaceId f) const {
+  const mpq_class radicand = exact(f).radicand;
+  const std::scoped_lock lock(classes_.mutex);
+  const std::uint32_t id = class_of(f, radicand);
+  return classes_.root[id] * *robust::rational_square_root(radicand / classes_.representative[id]);
 }
 
 }  // namespace gvd::kernel

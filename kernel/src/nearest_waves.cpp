@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gvd/kernel/error.hpp"
+#include "gvd/predicates/orientation.hpp"
 #include "gvd/predicates/wave.hpp"
 #include "gvd/robust/rational.hpp"
 #include "gvd/robust/rounding.hpp"
@@ -14,6 +15,7 @@ namespace gvd::kernel {
 namespace {
 
 using predicates::PlanePoint;
+using robust::Exact;
 using robust::RootSum;
 using robust::Sign;
 
@@ -87,58 +89,56 @@ class NearestSearch {
     return result_.is_decided && (result_.is_one_path || !to_one_path_);
   }
 
-  /// The same with sums of roots; false if the strip of a wave that is left is not of one square class, or its root too involved.
+  /// The same with exact numbers; false if those of a wave that is left are not to be had, or no sign of them.
   bool compare_exactly() {
-    std::vector<std::uint32_t> sites;
-    std::vector<RootSum> distance;
+    std::vector<std::uint32_t> nearest;
+    std::optional<Exact> least;
     for (const std::uint32_t i : result_.sites) {
       bool outside = false;
-      auto d = exact_distance(i, outside);
+      const auto distance = exact_distance(i, outside);
       if (outside) continue;
-      if (!d) return false;
-      sites.push_back(i);
-      distance.push_back(std::move(*d));
+      if (!distance) return false;
+      const robust::MaybeSign sign = least ? maybe_sign(*distance - *least) : Sign::negative;
+      if (!sign) return false;
+      if (*sign == Sign::negative) {
+        nearest.clear();
+        least = distance;
+      }
+      if (*sign != Sign::positive) nearest.push_back(i);
     }
-    if (sites.empty()) throw InternalError("no wave reaches a point of face " + std::to_string(waves_.face));
-    std::size_t least = 0;
-    for (std::size_t i = 1; i < sites.size(); ++i)
-      if (robust::compare(distance[i], distance[least]) == Sign::negative) least = i;
-    result_.sites.clear();
-    for (std::size_t i = 0; i < sites.size(); ++i)
-      if (robust::compare(distance[i], distance[least]) == Sign::zero) result_.sites.push_back(sites[i]);
+    if (!least) throw InternalError("no wave reaches a point of face " + std::to_string(waves_.face));
+    const std::optional<double> value = rounded(*least);
+    if (!value) return false;
+    result_.sites = std::move(nearest);
     constexpr int kBits = 128;
-    const auto ball = distance[least].enclosure(kBits);
-    result_.distance = {distance[least].rounded(), ball.lower(), ball.upper()};
+    const auto ball = least->enclosure(kBits);
+    result_.distance = {*value, ball.lower(), ball.upper()};
     result_.is_decided = result_.is_one_path = true;
     return true;
   }
 
   /// In mesh units. `outside` is set if the point is not in the cone.
-  std::optional<RootSum> exact_distance(std::uint32_t i, bool& outside) const {
+  std::optional<Exact> exact_distance(std::uint32_t i, bool& outside) const {
     const Frames& frames = resolution_.frames();
     const FacetSite& site = waves_.sites[i];
     const std::uint32_t side = site.window == kNone ? 0 : site.side;
     const HalfedgeId h = 3 * waves_.face + side;
-    const ExactFace face = frames.exact(waves_.face);
-    const QuadraticPoint apex = exact_apex(frames, h, face.radicand);
+    const predicates::RootPoint apex = exact_apex(frames, h);
     const mpq_class &b1 = at_.bary[(side + 1) % 3], &b2 = at_.bary[(side + 2) % 3];
-    const QuadraticPoint p{b1 + b2 * apex.x, b2 * apex.y};
-    QuadraticPoint image = site.corner == 2 ? apex : QuadraticPoint{site.corner == 1 ? 1 : 0, 0};
+    const predicates::RootPoint p{RootSum(b1) + b2 * apex.x, b2 * apex.y};
+    predicates::RootPoint image = site.corner == 2 ? apex : predicates::RootPoint{RootSum(site.corner == 1 ? 1 : 0), RootSum()};
     if (site.window != kNone) {
-      const auto at = unfold_exact(frames, strip_of(frames.mesh(), resolution_.field(), site.window), h);
+      const auto at = unfold_exact(frames, strip_of(frames.mesh(), resolution_.field(), site.window));
       if (!at) return std::nullopt;
       image = at->image;
-      const auto turn = [&](const QuadraticPoint& cone) {
-        return sgn((cone.x - image.x) * (p.y - image.y) - (cone.y - image.y) * (p.x - image.x));
-      };
-      outside = turn(at->cone0) > 0 || turn(at->cone1) < 0;
+      outside = predicates::orientation(image, at->cone0, p).sign() == Sign::positive ||
+                predicates::orientation(image, at->cone1, p).sign() == Sign::negative;
       if (outside) return std::nullopt;
     }
-    auto sum = resolution_.exact_distance(site.root);
-    if (!sum) return std::nullopt;
-    const mpq_class x = p.x - image.x, y = p.y - image.y;
-    sum->add(1, (x * x + y * y * face.radicand) * face.squared[side]);
-    return *sum * robust::power_of_two(frames.scale());
+    const auto distance = resolution_.exact_distance(site.root);
+    if (!distance) return std::nullopt;
+    const RootSum x = p.x - image.x, y = p.y - image.y;
+    return (*distance + sqrt(Exact((x * x + y * y) * frames.exact(waves_.face).squared[side]))).scaled(frames.scale());
   }
 
   const Resolution& resolution_;

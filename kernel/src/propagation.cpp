@@ -268,11 +268,6 @@ std::optional<Sight> sight_in(const predicates::Unfolding<T>& at, const EdgeFram
                          maybe_sign(predicates::orientation(image, as_balls(at.cone1), apex)));
 }
 
-robust::Sign exact_side(const QuadraticPoint& image, const QuadraticPoint& cone, const QuadraticPoint& apex) {
-  const mpq_class side = (cone.x - image.x) * (apex.y - image.y) - (cone.y - image.y) * (apex.x - image.x);
-  return static_cast<robust::Sign>(sgn(side));  // over sqrt(radicand) > 0
-}
-
 }  // namespace
 
 /// The later stages for an apex that the filter could not place.
@@ -285,9 +280,10 @@ Propagation::Sight Propagation::decide_apex(const Wave& wave, HalfedgeId h) {
   if (const auto s = sight_in<Sight>(unfold_double_double(all_frames_, strip), all_frames_.in_double_double(h),
                                      predicates::unit<robust::DoubleDouble>(0)))
     return decided(*s, robust::Stage::double_double);
-  if (const auto at = unfold_exact(all_frames_, strip, h)) {
-    const QuadraticPoint apex = exact_apex(all_frames_, h, at->radicand);
-    return decided(*sight_of<Sight>(exact_side(at->image, at->cone0, apex), exact_side(at->image, at->cone1, apex)), robust::Stage::algebra);
+  if (const auto at = unfold_exact(all_frames_, strip)) {
+    const predicates::RootPoint apex = exact_apex(all_frames_, h);
+    const auto side = [&](const predicates::RootPoint& cone) { return predicates::orientation(at->image, cone, apex).sign(); };
+    return decided(*sight_of<Sight>(side(at->cone0), side(at->cone1)), robust::Stage::algebra);
   }
   for (const int bits : {128, 256, 512, 1024}) {
     const auto frame = all_frames_.in_mpfr(Mesh::face(h), bits)[h % 3];

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "gvd/kernel/frames.hpp"
-#include "gvd/kernel/unfolding.hpp"
+#include "gvd/predicates/rational_strip.hpp"
 
 namespace gvd::kernel {
 

@@ -16,14 +16,15 @@ namespace gvd::kernel {
 using predicates::Predicate;
 using robust::Ball;
 using robust::DoubleDouble;
+using robust::Exact;
 using robust::Mpfr;
 using robust::RootSum;
 using robust::Stage;
 
 namespace {
 
-/// Beyond so many relays an exact sum of roots is not attempted.
-constexpr int kMostRelays = 24;
+/// Paths of more legs are not attempted exactly.
+constexpr std::size_t kMostLegs = 24;
 constexpr std::array<int, 4> kMpfrBits = {128, 256, 512, 1024};
 
 }  // namespace
@@ -139,21 +140,9 @@ std::vector<std::uint32_t> Resolution::nearest_of(const std::vector<std::uint32_
     predicates::count(decisions, Predicate::vertex_distance, Stage::double_double);
     return list;
   }
-  std::vector<RootSum> sums;
-  for (const std::uint32_t c : list) {
-    auto sum = exact_length(field_.candidates[c], v, kMostRelays);
-    if (!sum) break;
-    sums.push_back(std::move(*sum));
-  }
-  if (sums.size() == list.size()) {
-    std::size_t least = 0;
-    for (std::size_t i = 1; i < list.size(); ++i)
-      if (compare(sums[i], sums[least]) == robust::Sign::negative) least = i;
-    std::vector<std::uint32_t> kept;
-    for (std::size_t i = 0; i < list.size(); ++i)
-      if (compare(sums[i], sums[least]) == robust::Sign::zero) kept.push_back(list[i]);
+  if (auto nearest = nearest_exactly(list, v)) {
     predicates::count(decisions, Predicate::vertex_distance, Stage::algebra);
-    return kept;
+    return std::move(*nearest);
   }
   for (const int bits : kMpfrBits) {
     std::vector<Ball<Mpfr>> lengths;
@@ -168,6 +157,22 @@ std::vector<std::uint32_t> Resolution::nearest_of(const std::vector<std::uint32_
                         "vertex " + std::to_string(v) + ": " + std::to_string(list.size()) + " of " + std::to_string(before) +
                             " paths agree to 1024 bits");
   return list;
+}
+
+std::optional<std::vector<std::uint32_t>> Resolution::nearest_exactly(const std::vector<std::uint32_t>& list, VertexId v) const {
+  std::vector<std::uint32_t> nearest;
+  std::optional<Path> shortest;
+  for (const std::uint32_t c : list) {
+    auto path = exact_path(field_.candidates[c], v);
+    const robust::MaybeSign sign = !path ? std::nullopt : !shortest ? robust::Sign::negative : compare(*path, *shortest);
+    if (!sign) return std::nullopt;
+    if (*sign == robust::Sign::negative) {
+      nearest.clear();
+      shortest = std::move(path);
+    }
+    if (*sign != robust::Sign::positive) nearest.push_back(c);
+  }
+  return nearest;
 }
 
 HalfedgeId Resolution::edge_between(VertexId a, VertexId b) const {
@@ -209,30 +214,59 @@ Ball<Mpfr> Resolution::length(const Candidate& c, VertexId v, int bits) const {
 
 Ball<Mpfr> Resolution::distance(VertexId v, int bits) const { return length(field_.candidates[field_.first_candidate[v]], v, bits); }
 
-std::optional<RootSum> Resolution::exact_distance(VertexId v) const { return exact_distance(v, kMostRelays); }
-
-std::optional<RootSum> Resolution::exact_distance(VertexId v, int depth) const {
-  return exact_length(field_.candidates[field_.first_candidate[v]], v, depth);
+std::optional<Exact> Resolution::exact_distance(VertexId v) const {
+  const auto path = exact_path(field_.candidates[field_.first_candidate[v]], v);
+  if (!path) return std::nullopt;
+  return length(*path);
 }
 
-std::optional<RootSum> Resolution::exact_length(const Candidate& c, VertexId v, int depth) const {
-  if (depth == 0) return std::nullopt;
-  if (c.via == v)
-    return RootSum(robust::exact_rational(sources_[source_of_vertex_[v]].weight) * robust::power_of_two(-frames_.scale()));
-  auto sum = exact_distance(c.via, depth - 1);
-  if (!sum) return std::nullopt;
+std::optional<Resolution::Path> Resolution::exact_path(const Candidate& candidate, VertexId v) const {
+  Path path;
+  const Candidate* c = &candidate;
+  for (; c->via != v; v = c->via, c = &field_.candidates[field_.first_candidate[v]]) {
+    auto squared = squared_leg(*c, v);
+    if (!squared || path.legs.size() == kMostLegs) return std::nullopt;
+    path.legs.push_back({c->window, c->via, v, std::move(*squared)});
+  }
+  path.weight = robust::exact_rational(sources_[source_of_vertex_[v]].weight) * robust::power_of_two(-frames_.scale());
+  return path;
+}
+
+std::optional<RootSum> Resolution::squared_leg(const Candidate& c, VertexId v) const {
   if (c.window == kNone) {
     const HalfedgeId h = edge_between(c.via, v);
-    sum->add(1, frames_.exact(Mesh::face(h)).squared[h % 3]);
-    return sum;
+    return RootSum(frames_.exact(Mesh::face(h)).squared[h % 3]);
   }
-  const HalfedgeId h = field_.windows[c.window].halfedge();
-  const auto at = unfold_exact(frames_, strip_of(frames_.mesh(), field_, c.window), h);
+  const auto at = unfold_exact(frames_, strip_of(frames_.mesh(), field_, c.window));
   if (!at) return std::nullopt;
-  const QuadraticPoint apex = exact_apex(frames_, h, at->radicand);
-  const mpq_class x = at->image.x - apex.x, y = at->image.y - apex.y;
-  const mpq_class squared = (x * x + y * y * at->radicand) * frames_.exact(Mesh::face(h)).squared[h % 3];
-  sum->add(1, squared);
+  const HalfedgeId h = field_.windows[c.window].halfedge();
+  const predicates::RootPoint apex = exact_apex(frames_, h);
+  const RootSum x = at->image.x - apex.x, y = at->image.y - apex.y;
+  return (x * x + y * y) * frames_.exact(Mesh::face(h)).squared[h % 3];
+}
+
+/// The sign of the difference of the lengths. Equal legs cancel, the same ones without any arithmetic.
+robust::MaybeSign Resolution::compare(const Path& a, const Path& b) {
+  std::vector<const Leg*> more, less;
+  for (const Leg& leg : a.legs) more.push_back(&leg);
+  for (const Leg& leg : b.legs) {
+    const auto equal = std::find_if(more.begin(), more.end(), [&](const Leg* other) {
+      return (leg.window == other->window && leg.from == other->from && leg.to == other->to) || (leg.squared - other->squared).is_zero();
+    });
+    if (equal == more.end())
+      less.push_back(&leg);
+    else
+      more.erase(equal);
+  }
+  Exact difference(a.weight - b.weight);
+  for (const Leg* leg : more) difference += sqrt(Exact(leg->squared));
+  for (const Leg* leg : less) difference -= sqrt(Exact(leg->squared));
+  return maybe_sign(difference);
+}
+
+Exact Resolution::length(const Path& path) {
+  Exact sum(path.weight);
+  for (const Leg& leg : path.legs) sum += sqrt(Exact(leg.squared));
   return sum;
 }
 
@@ -255,9 +289,11 @@ double rounded_distance(const Resolution& resolution, VertexId v, predicates::De
     predicates::count(decisions, Predicate::rounding, Stage::double_double);
     return *value;
   }
-  if (const auto sum = resolution.exact_distance(v)) {
-    predicates::count(decisions, Predicate::rounding, Stage::algebra);
-    return (*sum * robust::power_of_two(scale)).rounded();
+  if (const auto exact = resolution.exact_distance(v)) {
+    if (const auto value = robust::rounded(exact->scaled(scale))) {
+      predicates::count(decisions, Predicate::rounding, Stage::algebra);
+      return *value;
+    }
   }
   for (const int bits : kMpfrBits) {
     if (const auto value = robust::rounded(resolution.distance(v, bits).scaled(scale))) {

@@ -57,18 +57,22 @@ RationalFrame rational_frame(const Frames& frames, HalfedgeId h, const mpq_class
   return *frame;
 }
 
-QuadraticPoint exact_apex(const Frames& frames, HalfedgeId h, const mpq_class& radicand) {
-  const RationalFrame f = rational_frame(frames, h, radicand);
-  return {f.u, f.y};
+namespace {
+
+predicates::EdgeFrame<robust::RootSum> exact_frame(const Frames& frames, HalfedgeId h) {
+  const FaceId f = Mesh::face(h);
+  return predicates::root_frame(frames.exact(f), h % 3, frames.doubled_area(f));
 }
 
-std::optional<ExactUnfolding> unfold_exact(const Frames& frames, const Strip& strip, HalfedgeId last) {
-  const std::uint32_t square_class = frames.square_class(Mesh::face(last));
-  if (frames.square_class(Mesh::face(strip.opposite)) != square_class) return std::nullopt;
-  for (const auto& step : strip.steps)
-    if (frames.square_class(Mesh::face(step.side)) != square_class) return std::nullopt;
-  const mpq_class radicand = frames.exact(Mesh::face(last)).radicand;
-  return predicates::unfold_rational(strip, radicand, [&](HalfedgeId h) { return rational_frame(frames, h, radicand); });
+}  // namespace
+
+predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h) {
+  const auto frame = exact_frame(frames, h);
+  return {frame.u, frame.y};
+}
+
+std::optional<predicates::RootUnfolding> unfold_exact(const Frames& frames, const Strip& strip) {
+  return predicates::unfold_roots(strip, [&](HalfedgeId h) { return exact_frame(frames, h); });
 }
 
 }  // namespace gvd::kernel

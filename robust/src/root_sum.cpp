@@ -4,16 +4,17 @@
 
 #include "correct_rounding.hpp"
 #include "gvd/robust/rational.hpp"
+#include "root_sum_interval.hpp"
 
 namespace gvd::robust {
 
-namespace {
-
 MpfrInterval evaluated(const RootSum& x, int bits) {
   MpfrInterval sum(x.constant(), bits);
-  for (const auto& term : x.terms()) sum = sum + MpfrInterval(term.coefficient, bits) * sqrt(MpfrInterval(term.radicand, bits));
+  for (const auto& term : x.terms()) sum = sum + MpfrInterval(term.coefficient, bits) * sqrt(MpfrInterval(mpq_class(term.radicand), bits));
   return sum;
 }
+
+namespace {
 
 // An interval of relative width at most 2^-bits. It ends, because a number that is not zero is not zero.
 MpfrInterval narrow_interval(const RootSum& x, int bits) {
@@ -32,16 +33,20 @@ RootSum& RootSum::add(const mpq_class& coefficient, const mpq_class& radicand) {
   if (const auto root = rational_square_root(radicand))
     constant_ += coefficient * *root;
   else
-    add_class(coefficient, radicand, square_class_signature(radicand));
+    add_class(coefficient / radicand.get_den(), radicand.get_num() * radicand.get_den(), square_class_signature(radicand));
   return *this;
 }
 
-void RootSum::add_class(const mpq_class& coefficient, const mpq_class& radicand, std::uint64_t signature) {
+void RootSum::add_class(const mpq_class& coefficient, const mpz_class& radicand, std::uint64_t signature) {
   for (auto term = terms_.begin(); term != terms_.end(); ++term) {
     if (term->signature != signature) continue;
-    const auto ratio = rational_square_root(radicand / term->radicand);
-    if (!ratio) continue;
-    term->coefficient += coefficient * *ratio;
+    if (term->radicand == radicand) {
+      term->coefficient += coefficient;
+    } else {
+      const mpz_class product = radicand * term->radicand;
+      if (!mpz_perfect_square_p(product.get_mpz_t())) continue;
+      term->coefficient += coefficient * mpq_class(sqrt(product)) / term->radicand;
+    }
     if (sgn(term->coefficient) == 0) terms_.erase(term);
     return;
   }
@@ -62,6 +67,26 @@ RootSum& RootSum::operator*=(const mpq_class& factor) {
   if (sgn(factor) == 0) terms_.clear();
   for (auto& term : terms_) term.coefficient *= factor;
   return *this;
+}
+
+RootSum operator*(const RootSum& a, const RootSum& b) {
+  RootSum product = a * b.constant_;
+  for (const auto& y : b.terms_) {
+    if (sgn(a.constant_) != 0) product.add_class(a.constant_ * y.coefficient, y.radicand, y.signature);
+    for (const auto& x : a.terms_) product.add_product(x, y);
+  }
+  return product;
+}
+
+void RootSum::add_product(const Term& x, const Term& y) {
+  const mpz_class common = gcd(x.radicand, y.radicand);
+  const mpz_class radicand = (x.radicand / common) * (y.radicand / common);
+  const mpq_class coefficient = x.coefficient * y.coefficient * common;
+  const std::uint64_t signature = x.signature ^ y.signature;
+  if (signature == 0 && mpz_perfect_square_p(radicand.get_mpz_t()))
+    constant_ += coefficient * sqrt(radicand);
+  else
+    add_class(coefficient, radicand, signature);
 }
 
 Sign RootSum::sign() const {

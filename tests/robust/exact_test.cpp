@@ -160,7 +160,7 @@ TEST(Exact, OneTemplateServesAllNumberTypes) {
 }
 
 TEST(Exact, SignsOutOfReachAreEmptyNotZero) {
-  // 24 independent roots of roots would ask for a separation bound of 2^48 times the bits.
+  // 24 independent roots and 24 roots of those: a number of the field has 2^48 coefficients.
   Exact forth = 0.0, back = 0.0;
   int count = 0;
   for (int n = 2; count < 24; ++n) {

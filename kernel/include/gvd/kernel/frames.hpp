@@ -12,6 +12,7 @@
 #include "gvd/robust/double_double.hpp"
 #include "gvd/robust/gmp.hpp"
 #include "gvd/robust/mpfr_float.hpp"
+#include "gvd/robust/root_sum.hpp"
 
 namespace gvd::kernel {
 
@@ -35,6 +36,8 @@ class Frames {
   ExactFace exact(FaceId f) const;
   /// The square class of the face's radicand: equal numbers if and only if the radicands differ by a rational square. Cached.
   std::uint32_t square_class(FaceId f) const;
+  /// The root of the face's radicand, twice its area; over the same integer for all faces of a square class.
+  robust::RootSum doubled_area(FaceId f) const;
   const Mesh& mesh() const noexcept { return mesh_; }
   /// Whether a side is below 2^-200 of the longest, or too long for doubles: then the error bounds of the frames do not hold.
   bool has_underflow() const noexcept { return underflow_; }
@@ -56,8 +59,10 @@ class Frames {
     std::mutex mutex;
     std::vector<std::uint32_t> of_face;
     std::vector<mpq_class> representative;
+    std::vector<robust::RootSum> root;  // of the representative
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_signature;
   };
+  std::uint32_t class_of(FaceId f, const mpq_class& radicand) const;
   mutable Classes classes_;
 };
 

@@ -12,6 +12,7 @@
 #include "gvd/kernel/unfolding.hpp"
 #include "gvd/predicates/predicate.hpp"
 #include "gvd/robust/ball.hpp"
+#include "gvd/robust/exact.hpp"
 #include "gvd/robust/root_sum.hpp"
 
 namespace gvd::kernel {
@@ -60,8 +61,8 @@ class Resolution {
 
   const robust::Ball<robust::DoubleDouble>& distance(VertexId v) const noexcept { return distance_[v]; }
   robust::Ball<robust::Mpfr> distance(VertexId v, int bits) const;
-  /// Empty if the paths cross faces of several square classes, or are too involved.
-  std::optional<robust::RootSum> exact_distance(VertexId v) const;
+  /// Empty if the paths cross faces of too many square classes, or bend too often.
+  std::optional<robust::Exact> exact_distance(VertexId v) const;
 
   /// A half-edge along the edge between two vertices, in either direction; kNone if no edge joins them.
   HalfedgeId edge_between(VertexId a, VertexId b) const;
@@ -74,10 +75,24 @@ class Resolution {
  private:
   void resolve_vertex(VertexId v, predicates::Decisions& decisions);
   std::vector<std::uint32_t> nearest_of(const std::vector<std::uint32_t>& list, VertexId v, predicates::Decisions& decisions) const;
+  /// Empty if the exact lengths are not to be had.
+  std::optional<std::vector<std::uint32_t>> nearest_exactly(const std::vector<std::uint32_t>& list, VertexId v) const;
   robust::Ball<robust::DoubleDouble> length(const Candidate& c, VertexId v) const;
   robust::Ball<robust::Mpfr> length(const Candidate& c, VertexId v, int bits) const;
-  std::optional<robust::RootSum> exact_length(const Candidate& c, VertexId v, int depth) const;
-  std::optional<robust::RootSum> exact_distance(VertexId v, int depth) const;
+  /// A path to v: the weight of the source, and its straight legs from v backwards.
+  struct Leg {
+    WindowId window;  ///< kNone: along an edge
+    VertexId from, to;
+    robust::RootSum squared;  ///< length
+  };
+  struct Path {
+    mpq_class weight;
+    std::vector<Leg> legs;
+  };
+  std::optional<Path> exact_path(const Candidate& c, VertexId v) const;
+  std::optional<robust::RootSum> squared_leg(const Candidate& c, VertexId v) const;
+  static robust::MaybeSign compare(const Path& a, const Path& b);
+  static robust::Exact length(const Path& path);
 
   const Frames& frames_;
   DistanceField& field_;

@@ -6,7 +6,7 @@
 
 #include "gvd/kernel/distance_field.hpp"
 #include "gvd/kernel/frames.hpp"
-#include "gvd/predicates/rational_strip.hpp"
+#include "gvd/predicates/root_strip.hpp"
 #include "gvd/robust/gmp.hpp"
 
 namespace gvd::kernel {
@@ -28,11 +28,9 @@ class MpfrFrames {
 predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits, MpfrFrames& cache);
 predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits);
 
-using predicates::ExactUnfolding;
-using predicates::QuadraticPoint;
-/// Empty if the faces are of several square classes. `last`: the half-edge over which the window comes in.
-std::optional<ExactUnfolding> unfold_exact(const Frames& frames, const predicates::Strip& strip, HalfedgeId last);
-/// The apex of the frame of h over the same root. Pre: the face is of the class of `radicand`.
-QuadraticPoint exact_apex(const Frames& frames, HalfedgeId h, const mpq_class& radicand);
+/// The strip in exact numbers; empty if it crosses too many independent square classes.
+std::optional<predicates::RootUnfolding> unfold_exact(const Frames& frames, const predicates::Strip& strip);
+/// The apex of the frame of h.
+predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h);
 
 }  // namespace gvd::kernel

@@ -6,6 +6,7 @@
 
 #include "gvd/robust/ball.hpp"
 #include "gvd/robust/gmp.hpp"
+#include "gvd/robust/root_sum.hpp"
 #include "gvd/robust/sign.hpp"
 
 namespace gvd::robust {
@@ -14,23 +15,19 @@ namespace gvd::robust {
 /// It has the interface that the generic formulas need of `Ball`, so that one template serves both.
 ///
 /// Dividing by zero and the root of a negative number give the *undefined* value, which every operation passes on and whose sign is
-/// empty. Elements of one quadratic field Q(sqrt d) stay in normal form (three rationals) and cost a few GMP operations.
-/// Everything else is an expression whose sign costs MPFR work that grows with the number of bits of a separation bound, which
-/// doubles with every further independent root: meant for short formulas over one square class.
-/// (and sums of roots of plain rationals are better served by RootSum). The separation bound is that of Burnikel, Funke,
-/// Mehlhorn, Schirra and Schmitt, "A separation bound for real algebraic expressions", ESA 2001;
-/// docs/error-bounds.md#separation-bound. Where it asks for more than kMostBits bits the sign may stay empty; such a number as
-/// divisor or radicand makes the result undefined. Values are immutable; distinct objects may be used by distinct threads, also
-/// copies of one another.
+/// empty. Sums of roots of rationals, their sums and products stay in normal form (RootSum). Everything else is an expression: its sign is
+/// looked for with MPFR, and if 256 bits do not show it, it is brought into the normal form of a tower of quadratic fields, which is zero
+/// or not; docs/exactness.md#towers. An element of a tower of n independent roots has 2^n coefficients: meant for formulas over a few. Where the
+/// form would be too large the sign may stay empty; such a number as divisor or radicand makes the result undefined. Values are immutable;
+/// distinct objects may be used by distinct threads, also copies of one another.
 class Exact {
  public:
   class Node;
-  static constexpr long kMostBits = 1L << 20;
-
   Exact() : Exact(0.0) {}
   /// Exactly x; undefined if x is not finite.
   Exact(double x);  // NOLINT: as for Ball
   explicit Exact(const mpq_class& q);
+  explicit Exact(RootSum sum);
   static Exact exact(double x) { return Exact(x); }
 
   friend Exact operator-(const Exact& a);

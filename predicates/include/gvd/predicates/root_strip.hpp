@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "gvd/predicates/face_frames.hpp"
+#include "gvd/predicates/strip.hpp"
+#include "gvd/robust/root_sum.hpp"
+
+/// Strips in exact numbers: coordinates are sums of roots, which the areas of the faces crossed bring in.
+namespace gvd::predicates {
+
+using RootPoint = Complex<robust::RootSum>;
+
+struct RootUnfolding {
+  RootPoint image, cone0, cone1;
+};
+
+/// The frame of side k, without the length. `doubled_area`: the root of the face's radicand.
+EdgeFrame<robust::RootSum> root_frame(const ExactFace& face, std::size_t k, const robust::RootSum& doubled_area);
+
+RootPoint cross(const RootPoint& z, const EdgeFrame<robust::RootSum>& side, bool left);
+
+/// Each further independent square class among the faces may double the terms of a coordinate: this many for five.
+inline constexpr std::size_t kMostTerms = 32;
+inline bool is_short(const RootPoint& z) { return z.x.terms().size() <= kMostTerms && z.y.terms().size() <= kMostTerms; }
+
+/// Unfolds a strip; `frame(h)` gives the frame of each half-edge of it. Empty if the sums grow too long.
+template <class FrameOf>
+std::optional<RootUnfolding> unfold_roots(const Strip& strip, FrameOf&& frame) {
+  const RootPoint origin{}, target{robust::RootSum(1), robust::RootSum()};
+  RootUnfolding at{apex_from_behind(frame(strip.opposite)), origin, target};
+  for (const StripStep& step : strip.steps) {
+    const EdgeFrame<robust::RootSum> side = frame(step.side);
+    at.image = cross(at.image, side, step.left);
+    at.cone0 = step.bounds && !step.left ? origin : cross(at.cone0, side, step.left);
+    at.cone1 = step.bounds && step.left ? target : cross(at.cone1, side, step.left);
+    if (!is_short(at.image)) return std::nullopt;
+  }
+  return at;
+}
+
+}  // namespace gvd::predicates

@@ -1,0 +1,16 @@
+#include "gvd/predicates/root_strip.hpp"
+
+namespace gvd::predicates {
+
+using robust::RootSum;
+
+EdgeFrame<RootSum> root_frame(const ExactFace& face, std::size_t k, const RootSum& doubled_area) {
+  const mpq_class& length2 = face.squared[k];
+  return {RootSum(face.dot[k] / length2), RootSum(face.dot[(k + 1) % 3] / length2), doubled_area * mpq_class(1 / length2), RootSum()};
+}
+
+RootPoint cross(const RootPoint& z, const EdgeFrame<RootSum>& side, bool left) {
+  return left ? cross_left(z, side) : cross_right(z, side);
+}
+
+}  // namespace gvd::predicates
