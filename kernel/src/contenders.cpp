@@ -14,6 +14,13 @@ bool separated(const predicates::PlanePoint<FacetLadder::F>& a, const predicates
   return maybe_sign(a.x - b.x).value_or(Sign::zero) != Sign::zero || maybe_sign(a.y - b.y).value_or(Sign::zero) != Sign::zero;
 }
 
+/// The turn from the right boundary ray of one to the left one of the other; empty if these numbers cannot tell.
+template <class NT>
+robust::MaybeSign rays_apart(const FacetNumbers<NT>& numbers, const Contender& left, const Contender& right) {
+  const auto& image = numbers.sites[left.site]->image;
+  return maybe_sign(predicates::orientation(image, numbers.sites[left.cone_site[1]]->cone[1], numbers.sites[right.cone_site[0]]->cone[0]));
+}
+
 }  // namespace
 
 Contenders::Contenders(FacetWaves& waves, FacetLadder& ladder) : waves_(waves) {
@@ -69,15 +76,15 @@ bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Co
   return same.value_or(false);  // two contenders that nobody can tell apart: whatever depends on it will be undecided
 }
 
-/// Whether the right boundary ray of one cone is the left one of the other.
+/// Whether the right boundary ray of one cone may be the left one of the other, as far as identity and doubles can tell.
+bool Contenders::may_touch(const FacetLadder& ladder, const Contender& left, const Contender& right) const {
+  return (left.cone[1] == right.cone[0] && left.cone[1] != kNone) || rays_apart(ladder.filter(), left, right).value_or(Sign::zero) == Sign::zero;
+}
+
+/// Whether it is. Pre: the images are one.
 bool Contenders::touching(FacetLadder& ladder, const Contender& left, const Contender& right) const {
   if (left.cone[1] == right.cone[0] && left.cone[1] != kNone) return true;
-  const auto sign = ladder.for_each_stage([&](const auto& numbers, robust::Stage) {
-    const auto& image = numbers.sites[left.site]->image;
-    return maybe_sign(
-        predicates::orientation(image, numbers.sites[left.cone_site[1]]->cone[1], numbers.sites[right.cone_site[0]]->cone[0]));
-  });
-  return sign == Sign::zero;
+  return ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return rays_apart(numbers, left, right); }) == Sign::zero;
 }
 
 void Contenders::merge_same_images(FacetLadder& ladder) {
@@ -85,7 +92,7 @@ void Contenders::merge_same_images(FacetLadder& ladder) {
     for (std::size_t j = 0; j < list_.size(); ++j) {
       Contender &left = list_[i], &right = list_[j];
       if (i == j || !left.has_cone || !right.has_cone || left.root != right.root) continue;
-      if (!same_image(ladder, left, right) || !touching(ladder, left, right)) continue;
+      if (!may_touch(ladder, left, right) || !same_image(ladder, left, right) || !touching(ladder, left, right)) continue;
       left.cone[1] = right.cone[1];
       left.attains_cone[1] = right.attains_cone[1];
       left.cone_site[1] = right.cone_site[1];

@@ -67,6 +67,7 @@ class Contenders {
  private:
   void merge_same_images(FacetLadder& ladder);
   bool same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const;
+  bool may_touch(const FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   void find_tangencies(FacetLadder& ladder);
   bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;

@@ -149,27 +149,45 @@ void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
   strips_.push_back(std::move(arrival.strip));
 }
 
-/// Compares the two strips between the part they share at the root and the part they share at the facet: what lies between them are the
-/// vertices on the right of the left one, which must be those on the left of the right one.
+/// The vertices on one side of a part of a strip. The sides crossed are directed against the half-edges that the window comes in over.
+std::vector<VertexId> FieldWaves::vertices_beside(const Strip& strip, std::size_t begin, std::size_t end, bool right, bool from_root) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  std::vector<VertexId> chain;
+  const auto pass = [&](HalfedgeId side) {
+    const VertexId v = right ? mesh.origin(side) : mesh.target(side);
+    if (chain.empty() || chain.back() != v) chain.push_back(v);
+  };
+  if (from_root) pass(strip.opposite);
+  for (std::size_t i = begin; i < end; ++i) pass(strip.steps[i].side);
+  return chain;
+}
+
+/// The two strips start at one root and end in this facet. Wherever they part, until they meet again, the vertices on the right of the left one must
+/// be those on the left of the right one: then the strips enclose nothing else.
 bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   if (sites[left].root != sites[right].root || sites[left].window == kNone || sites[right].window == kNone) return false;
   const Strip &a = strips_[left], &b = strips_[right];
-  if (a.opposite != b.opposite) return false;
-  std::size_t begin = 0, a_end = a.steps.size(), b_end = b.steps.size();
-  while (begin < a_end && begin < b_end && a.steps[begin].side == b.steps[begin].side) ++begin;
-  while (a_end > begin && b_end > begin && a.steps[a_end - 1].side == b.steps[b_end - 1].side) --a_end, --b_end;
   const Mesh& mesh = resolution_.frames().mesh();
-  const auto between = [&](const Strip& strip, std::size_t end, bool right_side) {
-    std::vector<VertexId> chain;
-    for (std::size_t i = begin; i < end; ++i) {  // the side is directed against the half-edge that the window comes in over
-      const VertexId v = right_side ? mesh.origin(strip.steps[i].side) : mesh.target(strip.steps[i].side);
-      if (chain.empty() || chain.back() != v) chain.push_back(v);
+  bool from_root = a.opposite != b.opposite;
+  for (std::size_t i = 0, j = 0; from_root || i < a.steps.size() || j < b.steps.size();) {
+    if (!from_root && i < a.steps.size() && j < b.steps.size() && a.steps[i].side == b.steps[j].side) {
+      ++i, ++j;
+      continue;
     }
-    return chain;
-  };
-  const std::vector<VertexId> chain = between(a, a_end, true);
-  if (chain.empty() || chain != between(b, b_end, false)) return false;
-  return std::all_of(chain.begin(), chain.end(), [&](VertexId v) { return kinds_[v] == VertexKind::flat && !mesh.is_boundary(v); });
+    std::size_t a_end = i, b_end = b.steps.size();
+    for (; a_end < a.steps.size() && b_end == b.steps.size(); ++a_end)
+      for (std::size_t k = j; k < b.steps.size() && b_end == b.steps.size(); ++k)
+        if (a.steps[a_end].side == b.steps[k].side) b_end = k;
+    if (b_end < b.steps.size()) --a_end;  // the loop has gone one too far
+    const auto chain = vertices_beside(a, i, a_end, true, from_root);
+    if (chain.empty() || chain != vertices_beside(b, j, b_end, false, from_root)) return false;
+    for (const VertexId v : chain)
+      if (kinds_[v] != VertexKind::flat || mesh.is_boundary(v)) return false;
+    from_root = false;
+    i = a_end;
+    j = b_end;
+  }
+  return true;
 }
 
 /// The relay's strip must be the end of the parent's, and before that the parent's strip must turn about the relay since it arrived there.

@@ -45,6 +45,7 @@ class FieldWaves final : public FacetWaves {
   bool arrive(WindowId window, std::uint8_t side, Arrival& arrival) const;
   void add_window(Arrival&& arrival, std::uint8_t side);
   void add_corner(std::uint8_t k);
+  std::vector<VertexId> vertices_beside(const predicates::Strip& strip, std::size_t begin, std::size_t end, bool right, bool from_root) const;
   void note_cone(FacetSite& site, const predicates::Strip& strip, WindowId window) const;
   template <class T>
   predicates::Site<robust::Ball<T>> make_site(const FacetSite& site, const predicates::Unfolding<T>& at, const robust::Ball<T>& weight,
