@@ -57,11 +57,16 @@ class FacetLadder {
     BeyondFilter& numbers = *beyond_;
     if (numbers.double_double.frame == nullptr) load_numbers(waves_, 0, numbers.double_double);
     if (auto answer = visit(numbers.double_double, robust::Stage::double_double)) return answer;
+    // A tie more often than not: where the proof is cheap it is asked for before MPFR, else before the longest numbers.
+    const bool exact_first = waves_.exact_is_cheap();
+    if (exact_first) {
+      if (auto exact = visit_exact(visit)) return exact;
+    }
     for (const int bits : {128, 256, 512, 1024}) {
       if (bits != numbers.bits) load_numbers(waves_, bits, numbers.mpfr);
       numbers.bits = bits;
       if (auto answer = visit(numbers.mpfr, robust::Stage::mpfr)) return answer;
-      if (bits == 256) {  // a tie more often than not: where the proof is cheap, ask for it before the longest numbers
+      if (bits == 256 && !exact_first) {
         if (auto exact = visit_exact(visit)) return exact;
       }
     }

@@ -365,6 +365,23 @@ const predicates::Site<Exact>* FieldWaves::exact_site(std::size_t i) {
   return exact_frame() != nullptr ? &precise_->exact_sites[i] : nullptr;
 }
 
+bool FieldWaves::exact_is_cheap() {
+  std::optional<bool>& known = precise().one_class;
+  if (!known) {
+    const Frames& frames = resolution_.frames();
+    const std::uint32_t here = frames.square_class(face);
+    const auto is_here = [&](HalfedgeId h) { return frames.square_class(Mesh::face(h)) == here; };
+    known = true;
+    for (std::size_t i = 0; i < sites.size() && *known; ++i) {
+      if (sites[i].window == kNone) continue;
+      const Strip& strip = strips_[i];
+      known = is_here(strip.opposite) &&
+              std::all_of(strip.steps.begin(), strip.steps.end(), [&](const predicates::StripStep& step) { return is_here(step.side); });
+    }
+  }
+  return *known;
+}
+
 bool FieldWaves::make_exact() {
   Precise& p = *precise_;
   const Frames& frames = resolution_.frames();
@@ -384,7 +401,7 @@ bool FieldWaves::make_exact() {
                    : sites[i].corner == 1 ? PlanePoint<Exact>{Exact(1.0), Exact(0.0)}
                                           : apex;
     } else {
-      const auto at = unfold_exact(frames, strips_[i]);
+      const auto at = resolution_.exact_unfolding(sites[i].window);
       if (!at) return false;
       site.has_cone = true;
       site.image = to_first_side(point(at->image), sites[i].side, apex);

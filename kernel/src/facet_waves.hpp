@@ -26,6 +26,7 @@ class FieldWaves final : public FacetWaves {
   const predicates::FacetFrame<robust::Exact>* exact_frame() override;
   const predicates::Site<robust::Exact>* exact_site(std::size_t i) override;
 
+  bool exact_is_cheap() override;
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
   bool have_one_image(std::size_t left, std::size_t right) override;
   /// Gives back what only the MPFR stage needs.
@@ -71,6 +72,7 @@ class FieldWaves final : public FacetWaves {
       MpfrFrames frames;
     };
     std::map<int, AtBits> at_bits;
+    std::optional<bool> one_class;
     bool exact_tried = false;
     std::unique_ptr<predicates::FacetFrame<robust::Exact>> exact_frame;
     std::vector<predicates::Site<robust::Exact>> exact_sites;

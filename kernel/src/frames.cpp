@@ -1,5 +1,7 @@
 #include "gvd/kernel/frames.hpp"
 
+#include "gvd/predicates/root_strip.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -103,6 +105,21 @@ ExactFace Frames::exact(FaceId f) const {
   return predicates::exact_face(side);
 }
 
+std::shared_ptr<const Frames::RootFrames> Frames::in_roots(FaceId f) const {
+  std::call_once(allocate_roots_, [&] { roots_ = std::make_unique<RootSlot[]>(kRootSlots); });
+  RootSlot& slot = roots_[f % kRootSlots];
+  const std::scoped_lock lock(slot.mutex);
+  if (slot.face != f) {
+    const ExactFace face = exact(f);
+    const robust::RootSum area = doubled_area(f, face.radicand);
+    auto frames = std::make_shared<RootFrames>();
+    for (std::size_t k = 0; k < 3; ++k) (*frames)[k] = predicates::root_frame(face, k, area);
+    slot.frames = std::move(frames);
+    slot.face = f;
+  }
+  return slot.frames;
+}
+
 std::uint32_t Frames::square_class(FaceId f) const {
   const std::scoped_lock lock(classes_.mutex);
   if (!classes_.of_face.empty() && classes_.of_face[f] != kNone) return classes_.of_face[f];
@@ -124,8 +141,8 @@ std::uint32_t Frames::class_of(FaceId f, const mpq_class& radicand) const {
   return classes_.of_face[f] = id;
 }
 
-robust::RootSum Frames::doubled_area(FaceId f) const {
-  const mpq_class radicand = exact(f).radicand;
+/// The root of the face's radicand, by that of its class.
+robust::RootSum Frames::doubled_area(FaceId f, const mpq_class& radicand) const {
   const std::scoped_lock lock(classes_.mutex);
   const std::uint32_t id = class_of(f, radicand);
   return classes_.root[id] * *robust::rational_square_root(radicand / classes_.representative[id]);

@@ -128,7 +128,7 @@ class NearestSearch {
     const predicates::RootPoint p{RootSum(b1) + b2 * apex.x, b2 * apex.y};
     predicates::RootPoint image = site.corner == 2 ? apex : predicates::RootPoint{RootSum(site.corner == 1 ? 1 : 0), RootSum()};
     if (site.window != kNone) {
-      const auto at = unfold_exact(frames, strip_of(frames.mesh(), resolution_.field(), site.window));
+      const auto at = resolution_.exact_unfolding(site.window);
       if (!at) return std::nullopt;
       image = at->image;
       outside = predicates::orientation(image, at->cone0, p).sign() == Sign::positive ||

@@ -30,7 +30,7 @@ double norm1(double x, double y) { return std::fabs(x) + std::fabs(y); }
 
 Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& kinds, DistanceField& field,
                          predicates::Decisions& decisions)
-    : mesh_(frames.mesh()), all_frames_(frames), frames_(frames.in_double()), kinds_(kinds), field_(field), decisions_(decisions) {
+    : mesh_(frames.mesh()), all_frames_(frames), frames_(frames.in_double()), kinds_(kinds), field_(field), exact_(frames, field), decisions_(decisions) {
   const std::size_t n = mesh_.vertex_count(), m = mesh_.halfedge_count();
   const double infinity = std::numeric_limits<double>::infinity();
   field_.first_window.assign(m, kNone);
@@ -280,7 +280,7 @@ Propagation::Sight Propagation::decide_apex(const Wave& wave, HalfedgeId h) {
   if (const auto s = sight_in<Sight>(unfold_double_double(all_frames_, strip), all_frames_.in_double_double(h),
                                      predicates::unit<robust::DoubleDouble>(0)))
     return decided(*s, robust::Stage::double_double);
-  if (const auto at = unfold_exact(all_frames_, strip)) {
+  if (const auto at = exact_(wave.window)) {
     const predicates::RootPoint apex = exact_apex(all_frames_, h);
     const auto side = [&](const predicates::RootPoint& cone) { return predicates::orientation(at->image, cone, apex).sign(); };
     return decided(*sight_of<Sight>(side(at->cone0), side(at->cone1)), robust::Stage::algebra);

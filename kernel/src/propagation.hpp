@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 
+#include "exact_unfoldings.hpp"
 #include "gvd/kernel/distance_field.hpp"
 #include "window_interval.hpp"
 
@@ -65,6 +66,7 @@ class Propagation {
   const std::vector<Frame>& frames_;
   const std::vector<VertexKind>& kinds_;
   DistanceField& field_;
+  ExactUnfoldings exact_;
   predicates::Decisions& decisions_;
 
   std::vector<Wave> waves_;

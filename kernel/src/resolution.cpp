@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "exact_unfoldings.hpp"
 #include "gvd/kernel/error.hpp"
 #include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/robust/rational.hpp"
@@ -43,7 +44,7 @@ LabelSetId LabelSets::merge(LabelSetId a, LabelSetId b) {
 }
 
 Resolution::Resolution(const Frames& frames, DistanceField& field, const std::vector<SourceVertex>& sources, LabelSets& sets)
-    : frames_(frames), field_(field), sources_(sources), sets_(sets) {
+    : frames_(frames), field_(field), sources_(sources), sets_(sets), exact_(std::make_unique<ExactUnfoldings>(frames, field)) {
   const std::size_t n = frames.mesh().vertex_count();
   source_of_vertex_.assign(n, kNone);
   for (std::size_t i = 0; i < sources.size(); ++i) source_of_vertex_[sources[i].vertex] = static_cast<std::uint32_t>(i);
@@ -51,6 +52,10 @@ Resolution::Resolution(const Frames& frames, DistanceField& field, const std::ve
   proved_.assign(n, 0);
   distance_.resize(n);
 }
+
+Resolution::~Resolution() = default;
+
+std::shared_ptr<const predicates::RootUnfolding> Resolution::exact_unfolding(WindowId window) const { return (*exact_)(window); }
 
 void Resolution::resolve(predicates::Decisions& decisions) {
   std::vector<VertexId> order;
@@ -237,7 +242,7 @@ std::optional<RootSum> Resolution::squared_leg(const Candidate& c, VertexId v) c
     const HalfedgeId h = edge_between(c.via, v);
     return RootSum(frames_.exact(Mesh::face(h)).squared[h % 3]);
   }
-  const auto at = unfold_exact(frames_, strip_of(frames_.mesh(), field_, c.window));
+  const auto at = exact_unfolding(c.window);
   if (!at) return std::nullopt;
   const HalfedgeId h = field_.windows[c.window].halfedge();
   const predicates::RootPoint apex = exact_apex(frames_, h);

@@ -57,22 +57,10 @@ RationalFrame rational_frame(const Frames& frames, HalfedgeId h, const mpq_class
   return *frame;
 }
 
-namespace {
-
-predicates::EdgeFrame<robust::RootSum> exact_frame(const Frames& frames, HalfedgeId h) {
-  const FaceId f = Mesh::face(h);
-  return predicates::root_frame(frames.exact(f), h % 3, frames.doubled_area(f));
-}
-
-}  // namespace
-
 predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h) {
-  const auto frame = exact_frame(frames, h);
+  const auto of_face = frames.in_roots(Mesh::face(h));
+  const auto& frame = (*of_face)[h % 3];
   return {frame.u, frame.y};
-}
-
-std::optional<predicates::RootUnfolding> unfold_exact(const Frames& frames, const Strip& strip) {
-  return predicates::unfold_roots(strip, [&](HalfedgeId h) { return exact_frame(frames, h); });
 }
 
 }  // namespace gvd::kernel

@@ -13,4 +13,14 @@ RootPoint cross(const RootPoint& z, const EdgeFrame<RootSum>& side, bool left) {
   return left ? cross_left(z, side) : cross_right(z, side);
 }
 
+RootUnfolding first_unfolding(const EdgeFrame<RootSum>& frame) {
+  return {apex_from_behind(frame), {RootSum(), RootSum()}, {RootSum(1), RootSum()}};
+}
+
+void take_step(RootUnfolding& at, const StripStep& step, const EdgeFrame<RootSum>& side) {
+  at.image = cross(at.image, side, step.left);
+  at.cone0 = step.bounds && !step.left ? RootPoint{RootSum(), RootSum()} : cross(at.cone0, side, step.left);
+  at.cone1 = step.bounds && step.left ? RootPoint{RootSum(1), RootSum()} : cross(at.cone1, side, step.left);
+}
+
 }  // namespace gvd::predicates

@@ -62,6 +62,8 @@ class FacetWaves {
   /// Empty if the strips of the sites and the facet are not all of one square class, or the weights are too involved.
   virtual const predicates::FacetFrame<robust::Exact>* exact_frame() = 0;
   virtual const predicates::Site<robust::Exact>* exact_site(std::size_t i) = 0;
+  /// Whether the exact numbers cost less than MPFR's: the faces are all of one square class.
+  virtual bool exact_is_cheap() { return false; }
   // References and pointers stay valid while the object lives, except those to M numbers: until other `bits` are asked for.
 
   /// Whether two windows of one root have the same image by identity: the left one's strip and the right one's enclose only vertices with a total

@@ -34,10 +34,11 @@ class Frames {
   std::array<predicates::EdgeFrame<robust::Mpfr>, 3> in_mpfr(FaceId f, int bits) const;
   /// In scaled units.
   ExactFace exact(FaceId f) const;
+  /// The frames of the face's half-edges in exact numbers, without the lengths. The last ones made are cached.
+  using RootFrames = std::array<predicates::EdgeFrame<robust::RootSum>, 3>;
+  std::shared_ptr<const RootFrames> in_roots(FaceId f) const;
   /// The square class of the face's radicand: equal numbers if and only if the radicands differ by a rational square. Cached.
   std::uint32_t square_class(FaceId f) const;
-  /// The root of the face's radicand, twice its area; over the same integer for all faces of a square class.
-  robust::RootSum doubled_area(FaceId f) const;
   const Mesh& mesh() const noexcept { return mesh_; }
   /// Whether a side is below 2^-200 of the longest, or too long for doubles: then the error bounds of the frames do not hold.
   bool has_underflow() const noexcept { return underflow_; }
@@ -55,6 +56,14 @@ class Frames {
   mutable std::vector<predicates::EdgeFrame<robust::DoubleDouble>> double_double_;
   mutable std::unique_ptr<std::atomic<std::uint8_t>[]> state_;  // per face: 0 empty, 1 being made, 2 ready
   mutable std::once_flag allocate_;
+  struct RootSlot {
+    std::mutex mutex;
+    FaceId face = kNone;
+    std::shared_ptr<const RootFrames> frames;
+  };
+  static constexpr std::size_t kRootSlots = 1 << 14;  // some 30 MB when full
+  mutable std::once_flag allocate_roots_;
+  mutable std::unique_ptr<RootSlot[]> roots_;
   struct Classes {
     std::mutex mutex;
     std::vector<std::uint32_t> of_face;
@@ -62,6 +71,7 @@ class Frames {
     std::vector<robust::RootSum> root;  // of the representative
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_signature;
   };
+  robust::RootSum doubled_area(FaceId f, const mpq_class& radicand) const;
   std::uint32_t class_of(FaceId f, const mpq_class& radicand) const;
   mutable Classes classes_;
 };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -37,11 +38,14 @@ struct SourceVertex {
   LabelSetId labels;
 };
 
+class ExactUnfoldings;
+
 /// Decides, vertex by vertex in the order of distance, which candidates are nearest, what their labels are, and which double is nearest to the
 /// distance. All distances in scaled units except where mesh units are named. After `resolve` the const members may be called by several threads.
 class Resolution {
  public:
   Resolution(const Frames& frames, DistanceField& field, const std::vector<SourceVertex>& sources, LabelSets& sets);
+  ~Resolution();
 
   /// Leaves only the winners (exactly tied) in the candidate lists of the field.
   void resolve(predicates::Decisions& decisions);
@@ -63,6 +67,9 @@ class Resolution {
   robust::Ball<robust::Mpfr> distance(VertexId v, int bits) const;
   /// Empty if the paths cross faces of too many square classes, or bend too often.
   std::optional<robust::Exact> exact_distance(VertexId v) const;
+
+  /// A window in exact numbers; null if its strip crosses faces of too many square classes.
+  std::shared_ptr<const predicates::RootUnfolding> exact_unfolding(WindowId window) const;
 
   /// A half-edge along the edge between two vertices, in either direction; kNone if no edge joins them.
   HalfedgeId edge_between(VertexId a, VertexId b) const;
@@ -102,6 +109,7 @@ class Resolution {
   std::vector<LabelSetId> labels_;
   std::vector<std::uint8_t> proved_;
   std::vector<robust::Ball<robust::DoubleDouble>> distance_;
+  std::unique_ptr<ExactUnfoldings> exact_;
 };
 
 /// The double nearest to D(v) in mesh units, by stages; counted under `rounding`. Thread-safe.

@@ -28,8 +28,6 @@ class MpfrFrames {
 predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits, MpfrFrames& cache);
 predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const predicates::Strip& strip, int bits);
 
-/// The strip in exact numbers; empty if it crosses too many independent square classes.
-std::optional<predicates::RootUnfolding> unfold_exact(const Frames& frames, const predicates::Strip& strip);
 /// The apex of the frame of h.
 predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h);
 

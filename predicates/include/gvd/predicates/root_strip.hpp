@@ -24,16 +24,17 @@ RootPoint cross(const RootPoint& z, const EdgeFrame<robust::RootSum>& side, bool
 inline constexpr std::size_t kMostTerms = 32;
 inline bool is_short(const RootPoint& z) { return z.x.terms().size() <= kMostTerms && z.y.terms().size() <= kMostTerms; }
 
+/// A window that its root sees over the first edge; `frame`: that of the strip's `opposite`.
+RootUnfolding first_unfolding(const EdgeFrame<robust::RootSum>& frame);
+/// Takes the window over the side of a step.
+void take_step(RootUnfolding& at, const StripStep& step, const EdgeFrame<robust::RootSum>& side);
+
 /// Unfolds a strip; `frame(h)` gives the frame of each half-edge of it. Empty if the sums grow too long.
 template <class FrameOf>
 std::optional<RootUnfolding> unfold_roots(const Strip& strip, FrameOf&& frame) {
-  const RootPoint origin{}, target{robust::RootSum(1), robust::RootSum()};
-  RootUnfolding at{apex_from_behind(frame(strip.opposite)), origin, target};
+  RootUnfolding at = first_unfolding(frame(strip.opposite));
   for (const StripStep& step : strip.steps) {
-    const EdgeFrame<robust::RootSum> side = frame(step.side);
-    at.image = cross(at.image, side, step.left);
-    at.cone0 = step.bounds && !step.left ? origin : cross(at.cone0, side, step.left);
-    at.cone1 = step.bounds && step.left ? target : cross(at.cone1, side, step.left);
+    take_step(at, step, frame(step.side));
     if (!is_short(at.image)) return std::nullopt;
   }
   return at;
