@@ -10,7 +10,7 @@
 namespace gvd::kernel {
 namespace {
 
-using predicates::AngleDecision;
+using predicates::Decision;
 using predicates::AngleSumFilter;
 using robust::Sign;
 using robust::Stage;
@@ -53,7 +53,7 @@ AngleSumFilter filter(const Mesh& mesh, VertexId v) {
   return sum;
 }
 
-AngleDecision decide_exactly(const Mesh& mesh, VertexId v, int quarter_turns) {
+Decision decide_exactly(const Mesh& mesh, VertexId v, int quarter_turns) {
   const ExactPoint at = mesh.exact_point(v);
   const auto exact_difference = [&](VertexId p) {
     ExactPoint d = mesh.exact_point(p);
@@ -67,7 +67,7 @@ AngleDecision decide_exactly(const Mesh& mesh, VertexId v, int quarter_turns) {
   return predicates::compare_angle_sum(fan, quarter_turns);
 }
 
-AngleDecision decide(const Mesh& mesh, VertexId v) {
+Decision decide(const Mesh& mesh, VertexId v) {
   if (!mesh.is_representable(v)) return {Sign::zero, Stage::identity};  // inside a face or an edge of the input
   const int quarter_turns = mesh.is_boundary(v) ? 2 : 4;
   const AngleSumFilter sum = filter(mesh, v);
@@ -83,7 +83,7 @@ std::vector<VertexKind> classify_vertices(const Mesh& mesh, predicates::Decision
   std::vector<VertexKind> kinds(mesh.vertex_count(), VertexKind::convex);
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.is_isolated(v)) continue;
-    const AngleDecision decision = decide(mesh, v);
+    const Decision decision = decide(mesh, v);
     if (!decision.sign) {
       predicates::undecided(decisions, predicates::Predicate::saddle,
                             fmt::format("vertex {}: total angle against {}", v, mesh.is_boundary(v) ? "pi" : "2 pi"));

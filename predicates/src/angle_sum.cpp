@@ -205,7 +205,7 @@ MaybeSign exact_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_
   return compare_turns(*quarters, quarter_turns, [&] { return product->imaginary_sign(quarter_turns); });
 }
 
-AngleDecision compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
+Decision compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
   if (const auto sign = double_double_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::double_double};
   if (const auto sign = exact_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::algebra};
   for (const int bits : kBits) {

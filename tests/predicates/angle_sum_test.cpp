@@ -205,7 +205,7 @@ TEST(AngleSum, FlatFansAreZeroAndOneUlpOffIsNot) {
   const auto corners = exact_corners(plane);
   EXPECT_EQ(filter(plane).compare(4), std::nullopt);
   EXPECT_EQ(exact_compare_angle_sum(corners, 4), MaybeSign(Sign::zero));
-  const AngleDecision decision = compare_angle_sum(corners, 4);
+  const Decision decision = compare_angle_sum(corners, 4);
   EXPECT_EQ(decision.sign, MaybeSign(Sign::zero));
   EXPECT_EQ(decision.stage, Stage::algebra);
   for (std::size_t i = 0; i < plane.spokes.size(); ++i) {
@@ -249,7 +249,7 @@ TEST(AngleSum, NearlyFlatFansOfManyRootsReachMpfr) {
     const int x[] = {5, 2, -3, -7, -1, 4}, y[] = {1, 6, 4, -2, -9, -3};
     std::vector<ExactCorner> corners;
     for (int i = 0; i < 6; ++i) corners.push_back(exact_corner({x[i], y[i], -lift}, {x[(i + 1) % 6], y[(i + 1) % 6], -lift}));
-    const AngleDecision decision = compare_angle_sum(corners, 4);
+    const Decision decision = compare_angle_sum(corners, 4);
     EXPECT_EQ(decision.sign, MaybeSign(Sign::negative)) << k;
     EXPECT_EQ(decision.stage, k == 30 ? Stage::double_double : Stage::mpfr) << k;
     if (k == 120) {
@@ -286,7 +286,7 @@ TEST(AngleSum, FilterRefusesExtremeScales) {
       for (double& x : d) x = std::ldexp(x, shift);
     }
     EXPECT_EQ(filter(scaled).compare(4), std::nullopt) << shift;
-    const AngleDecision decision = compare_angle_sum(exact_corners(scaled), 4);
+    const Decision decision = compare_angle_sum(exact_corners(scaled), 4);
     EXPECT_EQ(decision.sign, MaybeSign(Sign::negative));
     EXPECT_EQ(decision.stage, Stage::double_double);
   }

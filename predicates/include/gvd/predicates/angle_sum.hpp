@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "gvd/robust/decision.hpp"
+#include "gvd/predicates/ladder.hpp"
 #include "gvd/robust/gmp.hpp"
 #include "gvd/robust/sign.hpp"
 
@@ -63,12 +63,8 @@ robust::MaybeSign exact_compare_angle_sum(std::span<const ExactCorner> fan, int 
 /// rational squared tangent). So at most four classes c other than 1 fit into 2 pi.
 inline constexpr std::size_t kMostAngleRoots = 4;
 
-struct AngleDecision {
-  robust::MaybeSign sign;  ///< empty: undecided
-  robust::Stage stage;
-};
 /// The stages above after the filter, in turn. The exact one comes before MPFR, because what double-double cannot tell is usually
 /// equal.
-AngleDecision compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns);
+Decision compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns);
 
 }  // namespace gvd::predicates
