@@ -1,10 +1,12 @@
 # The libraries that gvd links, for its own build and for those who link the installed package.
-include(CMakeFindDependencyMacro)
-find_dependency(fmt)
-find_dependency(TBB)
-find_dependency(Threads)
-find_dependency(nlohmann_json)
-find_dependency(ZLIB)
+if(NOT gvd_only_predicates)
+  include(CMakeFindDependencyMacro)
+  find_dependency(fmt)
+  find_dependency(TBB)
+  find_dependency(Threads)
+  find_dependency(nlohmann_json)
+  find_dependency(ZLIB)
+endif()
 
 # GMP and MPFR bring no CMake package. They become imported targets, so that the exported package names no path.
 function(gvd_import_library name header)
