@@ -9,7 +9,6 @@
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/predicates/orientation.hpp"
-#include "shadow.hpp"
 
 namespace gvd::kernel {
 
@@ -48,6 +47,7 @@ Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& ki
   emitted_weight_.assign(n, infinity);
   emitted_error_.assign(n, 0);
   emitted_.assign(m, kNone);
+  cut_at_shadow_.assign(n, 0);
 }
 
 bool Propagation::run(std::span<const WaveStart> starts, PropagationPoll poll, void* user) {
@@ -73,15 +73,23 @@ void Propagation::settle(VertexId v) {
   settled_[v] = 1;
   emitted_weight_[v] = field_.distance[v];
   emitted_error_[v] = field_.error[v] + kDistanceError * field_.distance[v];
-  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
-    const Candidate arrival = field_.candidates[c];
-    if (arrival.window == kNone && arrival.via == v) {
-      emit_all(v);
-    } else if (kinds_[v] == VertexKind::relay) {
-      emit_shadow(v, arrival);
-    }
+  send_waves(v, field_.candidates[field_.first_candidate[v]].next == kNone);
+  relax_neighbours(v, emitted_error_[v]);
+  push_lists_at(v);
+}
+
+/// Of the sources at v, or of the relay for each of its candidates.
+void Propagation::send_waves(VertexId v, bool only_path) {
+  if (is_source(v)) {
+    mesh_.for_each_outgoing(v, [&](HalfedgeId h) { emit(v, h, nullptr); });
+  } else if (kinds_[v] == VertexKind::relay) {
+    for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) emit_shadow(v, field_.candidates[c], only_path);
   }
-  const double d = field_.distance[v], e = emitted_error_[v];  // D may still improve within that
+}
+
+/// Along the edges at v, whose distance may still improve within the error.
+void Propagation::relax_neighbours(VertexId v, double e) {
+  const double d = emitted_weight_[v];
   mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
     const double along = d + frames_[h].length;
     relax(mesh_.target(h), {kNone, v, kNone, along, e + kDistanceError * along, {0, 0}});
@@ -91,12 +99,25 @@ void Propagation::settle(VertexId v) {
       relax(mesh_.origin(last), {kNone, v, kNone, back, e + kDistanceError * back, {0, 0}});
     }
   });
-  push_lists_at(v);
+}
+
+/// Whether a wave of its own sources may be the nearest at v.
+bool Propagation::is_source(VertexId v) const {
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next)
+    if (field_.candidates[c].window == kNone && field_.candidates[c].via == v) return true;
+  return false;
 }
 
 void Propagation::relax(VertexId v, const Candidate& candidate) {
   if (candidate.distance - candidate.error > upper_[v]) return;
   auto& list = field_.candidates;
+  if (field_.restarted && candidate.window == kNone) {  // the same path, its root nearer than it was
+    for (std::uint32_t* link = &field_.first_candidate[v]; *link != kNone; link = &list[*link].next) {
+      if (list[*link].window != kNone || list[*link].via != candidate.via) continue;
+      *link = list[*link].next;
+      break;
+    }
+  }
   const double up = (candidate.distance + candidate.error) * (1 + 4 * kUnit);
   if (up < upper_[v]) {
     upper_[v] = up;
@@ -122,14 +143,14 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
     if (nearer) heap_.push({candidate.distance, v});
     return;
   }
-  // A settled vertex improves: rare. Its own waves start anew if their weight is no longer within its error.
-  const bool is_source = [&] {
-    for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next)
-      if (list[c].window == kNone && list[c].via == v) return true;
-    return false;
-  }();
-  if (low < emitted_weight_[v] - emitted_error_[v]) {
-    superseded_ = true;
+  improve_settled(v, low, candidate);
+}
+
+/// Rare. Its own waves start anew if their weight is no longer within its error, or if they were cut off at the shadow of what was the only path.
+void Propagation::improve_settled(VertexId v, double low, const Candidate& candidate) {
+  if (low < emitted_weight_[v] - emitted_error_[v] || cut_at_shadow_[v] != 0) {
+    field_.restarted = true;
+    cut_at_shadow_[v] = 0;
     emitted_weight_[v] = field_.distance[v];
     const double slack = field_.error[v] + kDistanceError * field_.distance[v];
     emitted_error_[v] = 2 * slack;  // the range doubles: vertices that lie close together cannot start one another anew without end
@@ -137,31 +158,14 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
       if (emitted_[h] != kNone) field_.windows[emitted_[h]].packed |= WindowRecord::kDead;
       emitted_[h] = kNone;
     });
-    if (is_source) {
-      emit_all(v);
-    } else if (kinds_[v] == VertexKind::relay) {
-      for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next) emit_shadow(v, Candidate(list[c]));
-    }
-    const double d = field_.distance[v], e = slack;
-    mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
-      const double along = d + frames_[h].length;
-      relax(mesh_.target(h), {kNone, v, kNone, along, e + kDistanceError * along, {0, 0}});
-      const HalfedgeId last = Mesh::prev(h);
-      if (mesh_.twin(last) == kNone) {
-        const double back = d + frames_[last].length;
-        relax(mesh_.origin(last), {kNone, v, kNone, back, e + kDistanceError * back, {0, 0}});
-      }
-    });
-  } else if (!is_source && kinds_[v] == VertexKind::relay) {
-    emit_shadow(v, candidate);
+    send_waves(v, false);
+    relax_neighbours(v, slack);
+  } else if (kinds_[v] == VertexKind::relay && !is_source(v)) {
+    emit_shadow(v, candidate, false);
   }
 }
 
-void Propagation::emit_all(VertexId v) {
-  mesh_.for_each_outgoing(v, [&](HalfedgeId h) { emit(v, h); });
-}
-
-void Propagation::emit(VertexId v, HalfedgeId outgoing) {
+void Propagation::emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow) {
   field_.corner_sees_face[outgoing] = 1;
   if (emitted_[outgoing] != kNone) return;
   const HalfedgeId opposite = Mesh::next(outgoing);
@@ -182,16 +186,41 @@ void Propagation::emit(VertexId v, HalfedgeId outgoing) {
   wave.begin_trimmed = wave.end_trimmed = false;
   wave.begin_turns = wave.end_turns = 0;
   wave.cone0_at_origin = wave.cone1_at_target = true;
+  if (shadow != nullptr && cut_at_shadow(*shadow, outgoing, wave)) cut_at_shadow_[v] = 1;
   wave.window = new_window(kNone, target, v, false);
   emitted_[outgoing] = wave.window;
   append(target, w);
   push(target);
 }
 
-void Propagation::emit_shadow(VertexId v, const Candidate& arrival) {
+void Propagation::emit_shadow(VertexId v, const Candidate& arrival, bool only_path) {
   const HalfedgeId over = arrival.window == kNone ? kNone : field_.windows[arrival.window].halfedge();
   shadow_of(mesh_, frames_, v, over, arrival, shadow_);
-  for (const HalfedgeId outgoing : shadow_) emit(v, outgoing);
+  for (const HalfedgeId outgoing : shadow_.faces) emit(v, outgoing, only_path ? &shadow_ : nullptr);
+}
+
+/// Cuts off what certainly lies outside the shadow. Pre: no other path to the relay may be the shortest.
+bool Propagation::cut_at_shadow(const Shadow& shadow, HalfedgeId outgoing, Wave& wave) {
+  const Frame& side = frames_[Mesh::next(outgoing)];
+  const auto landing = [&](const ShadowRay& ray) {
+    const double disc = wave.image_error / side.length + (ray.error + 3 * kStepError) * norm1(side.u, side.y);
+    return predicates::land(wave.image, predicates::cross_right(ray.direction, side), disc);
+  };
+  if (shadow.first.face == outgoing) {
+    const predicates::Landing l = landing(shadow.first);
+    if (l.at + l.margin < 1) {
+      wave.end = l.at + l.margin;
+      wave.end_trimmed = true;
+    }
+  }
+  if (shadow.last.face == outgoing) {
+    const predicates::Landing l = landing(shadow.last);
+    if (l.at - l.margin > 0) {
+      wave.begin = l.at - l.margin;
+      wave.begin_trimmed = true;
+    }
+  }
+  return wave.begin_trimmed || wave.end_trimmed;
 }
 
 void Propagation::push_lists_at(VertexId v) {
@@ -305,7 +334,7 @@ void Propagation::trim_list(HalfedgeId h) {
   };
   for (std::uint32_t w = waiting_[h].first; w != kNone;) {
     const std::uint32_t next = waves_[w].next;
-    if (superseded_ && waves_[w].weight != emitted_weight_[field_.windows[waves_[w].window].root]) {
+    if (field_.restarted && waves_[w].weight != emitted_weight_[field_.windows[waves_[w].window].root]) {
       recycle(w);
     } else {
       list_.push_back(w);

@@ -6,6 +6,7 @@
 
 #include "exact_unfoldings.hpp"
 #include "gvd/kernel/distance_field.hpp"
+#include "shadow.hpp"
 #include "window_interval.hpp"
 
 namespace gvd::kernel {
@@ -45,9 +46,13 @@ class Propagation {
 
   void settle(VertexId v);
   void relax(VertexId v, const Candidate& candidate);
-  void emit(VertexId v, HalfedgeId outgoing);
-  void emit_all(VertexId v);
-  void emit_shadow(VertexId v, const Candidate& arrival);
+  void improve_settled(VertexId v, double low, const Candidate& candidate);
+  void send_waves(VertexId v, bool only_path);
+  void relax_neighbours(VertexId v, double error);
+  bool is_source(VertexId v) const;
+  void emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow);
+  void emit_shadow(VertexId v, const Candidate& arrival, bool only_path);
+  bool cut_at_shadow(const Shadow& shadow, HalfedgeId outgoing, Wave& wave);
   void push_lists_at(VertexId v);
   void push(HalfedgeId h);
   void drain();
@@ -79,10 +84,11 @@ class Propagation {
   std::vector<double> upper_;                 // per vertex: certain upper bound of D
   std::vector<std::uint8_t> settled_;
   std::vector<std::uint16_t> degree_;         // faces at a vertex
-  std::vector<double> emitted_weight_, emitted_error_;
+  std::vector<double> emitted_weight_, emitted_error_;  // per settled vertex: what its windows carry
   std::vector<WindowId> emitted_;             // per outgoing half-edge: the first window sent over the opposite side
+  std::vector<std::uint8_t> cut_at_shadow_;   // per relay: what it sent is only what the one path to it leaves
   std::vector<Crossing> crossings_;
-  std::vector<HalfedgeId> shadow_;
+  Shadow shadow_;
   std::vector<std::uint32_t> list_, kept_;    // of the half-edge at hand
   struct Entry {
     double distance;
@@ -92,7 +98,6 @@ class Propagation {
     }
   };
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
-  bool superseded_ = false;
   std::uint64_t filtered_orientations_ = 0, filtered_prunings_ = 0;
 };
 

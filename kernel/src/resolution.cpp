@@ -74,6 +74,7 @@ void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
   std::vector<std::uint32_t> list;
   for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
     const Candidate& candidate = field_.candidates[c];
+    if (candidate.window != kNone && field_.is_stale(candidate.window)) continue;  // its path is here again
     // A root that is not resolved yet lies farther than v by more than all errors, or the two are closer than doubles can tell.
     if (candidate.via != v && labels_[candidate.via] == kNone) {
       if (field_.distance[candidate.via] - field_.error[candidate.via] < field_.distance[v] + field_.error[v])

@@ -31,6 +31,8 @@ class HalfTurn {
     at_ = normalised(p);
     return !(at_.y > error_);  // also if nothing is known
   }
+  const Image& at() const { return at_; }
+  double error() const { return error_; }
 
  private:
   Image at_;
@@ -40,8 +42,10 @@ class HalfTurn {
 }  // namespace
 
 void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, HalfedgeId over, const Candidate& arrival,
-               std::vector<HalfedgeId>& faces) {
+               Shadow& shadow) {
+  std::vector<HalfedgeId>& faces = shadow.faces;
   faces.clear();
+  shadow.first = shadow.last = {};
   // The fan, counter-clockwise: face i of the fan lies between outgoing[i] and the next one.
   std::vector<HalfedgeId> fan;
   mesh.for_each_outgoing(v, [&](HalfedgeId h) { fan.push_back(h); });
@@ -74,8 +78,10 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
     const std::size_t i = ccw_face + step;
     if (!closed && i >= n) break;
     const Frame& f = frames[fan[i % n]];
+    const HalfTurn before = ccw;
     if (ccw.reached_by(f.u, f.y)) {
       first = i;
+      shadow.first = {fan[i % n], {-before.at().x, before.at().y}, before.error()};
       break;
     }
   }
@@ -83,14 +89,18 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
     if (!closed && cw_steps_from < step) break;
     const std::size_t i = (cw_steps_from + n - step) % n;
     const Frame& f = frames[fan[i]];
+    const Image p = cw.at();
+    const double error = cw.error();
     if (cw.reached_by(f.u, f.y)) {
-      last = i;
+      last = i;  // from the face's other side back by what is left of half a turn
+      shadow.last = {fan[i], normalised({p.y * f.y - p.x * f.u, -p.x * f.y - p.y * f.u}), error + predicates::kTurnError};
       break;
     }
   }
   if (closed) {
     if (!first || !last) {  // no shadow could be told apart: the whole fan is safe
       faces = fan;
+      shadow.first = shadow.last = {};
       return;
     }
     for (std::size_t i = *first % n;; i = (i + 1) % n) {

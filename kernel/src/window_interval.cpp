@@ -11,87 +11,134 @@ namespace {
 using predicates::kDistanceError;
 using predicates::kUnit;
 
-/// Distance and slope along the side of a wave at x.
-struct Profile {
-  double distance, slope, reach;
+/// A stretch of the edge; empty unless from < to.
+struct Stretch {
+  double from = 1, to = 0;
 };
-Profile profile(const WindowInterval& wave, double x, double length) {
-  const double dx = x - wave.image.x;
-  const double r = std::sqrt(dx * dx + wave.image.y * wave.image.y);
-  return {wave.weight + length * r, dx / r, r};
+
+/// second - first over the stretch that the intervals of both contain.
+class Difference {
+ public:
+  Difference(const WindowInterval& first, const WindowInterval& second, double length)
+      : first_(first), second_(second), length_(length), low_(std::max(first.begin, second.begin)), high_(std::min(first.end, second.end)) {}
+
+  bool is_empty() const { return !(low_ < high_); }
+  /// Where the first, and where the second, is certainly shorter; nothing beyond what can be told from the ends and from one root.
+  void compare(Stretch& first_shorter, Stretch& second_shorter);
+
+ private:
+  struct Reach {
+    double first, second;  // distances of the two images, in units of the frame
+  };
+  Reach reach(double x) const {
+    const double dx = x - first_.image.x, ex = x - second_.image.x;
+    return {std::sqrt(dx * dx + first_.image.y * first_.image.y), std::sqrt(ex * ex + second_.image.y * second_.image.y)};
+  }
+  double value(const Reach& r) const { return (second_.weight + length_ * r.second) - (first_.weight + length_ * r.first); }
+  /// -1, 0 or 1; 0 also where the slope is uncertain.
+  int slope_sign(double x, const Reach& r) const {
+    const double of_first = 1 / r.first, of_second = 1 / r.second;
+    const double slope = (x - second_.image.x) * of_second - (x - first_.image.x) * of_first;
+    const double error = 4 * (first_.image_error + second_.image_error) / length_ * (of_first + of_second) + 16 * kUnit;
+    return slope > error ? 1 : slope < -error ? -1 : 0;
+  }
+  int sign(double value) const { return value > error_ ? 1 : value < -error_ ? -1 : 0; }
+  double leave_tie(double end, int sign_elsewhere) const;
+  void bracket_root(double g0, double g1, double& left, double& right) const;
+
+  const WindowInterval &first_, &second_;
+  double length_, low_, high_, error_ = 0;
+};
+
+void Difference::compare(Stretch& first_shorter, Stretch& second_shorter) {
+  const Reach r0 = reach(low_), r1 = reach(high_);
+  error_ = (first_.weight_error + first_.image_error) + (second_.weight_error + second_.image_error) +
+           2 * kDistanceError * (first_.weight + second_.weight) +
+           kDistanceError * length_ * ((r0.first + r0.second) + (r1.first + r1.second));
+  const double g0 = value(r0), g1 = value(r1);
+  const int s0 = sign(g0), s1 = sign(g1);
+  if (s0 == 0 && s1 == 0) return;
+  Stretch& of_sign0 = s0 > 0 ? first_shorter : second_shorter;
+  Stretch& of_sign1 = s1 > 0 ? first_shorter : second_shorter;
+  if (s0 == s1) {
+    // The difference has at most one critical point: it keeps its sign unless it dips in between.
+    if (slope_sign(low_, r0) == s0 || slope_sign(high_, r1) == -s1) of_sign0 = {low_, high_};
+  } else if (s0 != 0 && s1 != 0) {
+    double left = low_, right = high_;
+    bracket_root(g0, g1, left, right);
+    of_sign0 = {low_, left};
+    of_sign1 = {right, high_};
+  } else if (s0 != 0) {
+    of_sign0 = {low_, leave_tie(high_, s0)};
+  } else {
+    of_sign1 = {leave_tie(low_, s1), high_};
+  }
 }
 
-}  // namespace
-
-Trim trim(WindowInterval& first, WindowInterval& second, double length) {
-  const double low = second.begin, high = std::min(first.end, second.end);
-  if (!(low < high)) return Trim::none;
-  const Profile a0 = profile(first, low, length), b0 = profile(second, low, length);
-  const Profile a1 = profile(first, high, length), b1 = profile(second, high, length);
-  const double error = (first.weight_error + first.image_error) + (second.weight_error + second.image_error) +
-                       kDistanceError * (a0.distance + b0.distance + a1.distance + b1.distance);
-  const double g0 = b0.distance - a0.distance, g1 = b1.distance - a1.distance;
-  if (std::fabs(g0) <= error || std::fabs(g1) <= error) return Trim::none;
-  const double disc = 4 * (first.image_error + second.image_error) / length;
-  const bool first_seen = low >= first.begin + first.begin_slack && high <= first.end - first.end_slack;
-  const bool second_seen = low >= second.begin + second.begin_slack && high <= second.end - second.end_slack;
-  if ((g0 > 0) == (g1 > 0)) {
-    // The difference has at most one critical point: it keeps its sign unless it dips in between.
-    const double slope0 = b0.slope - a0.slope, slope1 = b1.slope - a1.slope;
-    const double slope_error = disc * (1 / a0.reach + 1 / b0.reach + 1 / a1.reach + 1 / b1.reach) + 16 * kUnit;
-    if (g0 > 0) {
-      if (!(slope0 > slope_error || slope1 < -slope_error)) return Trim::none;
-      const double seen = std::min(high, first.end - first.end_slack);
-      if (low < first.begin + first.begin_slack) return Trim::none;
-      if (second.end <= seen) return Trim::drop_second;
-      if (seen > second.begin + second.begin_slack) {
-        second.begin = seen;
-        second.begin_slack = 0;
-        second.begin_trimmed = true;
-      }
-      return Trim::none;
-    }
-    if (!(slope0 < -slope_error || slope1 > slope_error)) return Trim::none;
-    if (first.end > second.end - second.end_slack) return Trim::none;
-    const double seen = second.begin + second.begin_slack;
-    if (first.begin >= seen) return Trim::drop_first;
-    if (seen < first.end - first.end_slack) {
-      first.end = seen;
-      first.end_slack = 0;
-      first.end_trimmed = true;
-    }
-    return Trim::none;
+/// A point near the end, where the two may tie, from which on to the other end the difference has the sign it has there; else that other end.
+double Difference::leave_tie(double end, int sign_elsewhere) const {
+  const double other = end == high_ ? low_ : high_;
+  const int inwards = end == high_ ? -1 : 1;
+  for (const double part : {0x1p-18, 0x1p-9}) {
+    const double x = end + (other - end) * part;
+    const Reach r = reach(x);
+    if (sign(value(r)) == sign_elsewhere && slope_sign(x, r) * inwards == sign_elsewhere) return x;
   }
-  if (g0 < 0 || !first_seen || !second_seen) return Trim::none;
-  // One root: first is shorter before it, second after it.
-  double left = low, right = high, gl = g0, gr = g1;
+  return other;
+}
+
+/// Narrows [left, right], at whose ends the difference has opposite signs.
+void Difference::bracket_root(double g0, double g1, double& left, double& right) const {
+  double gl = g0, gr = g1;
   for (int i = 0; i < 3; ++i) {
     const double x = left + (right - left) * (gl / (gl - gr));
-    if (!(x > left && x < right)) break;
+    if (!(x > left && x < right)) return;
     const double width = right - left;
     for (const double probe : {x - width * 0x1p-10, x + width * 0x1p-10}) {
       if (!(probe > left && probe < right)) continue;
-      const double g = profile(second, probe, length).distance - profile(first, probe, length).distance;
-      if (g > error) {
+      const double g = value(reach(probe));
+      const int s = sign(g);
+      if (s == 0) continue;
+      if (s == sign(g0)) {
         left = probe;
         gl = g;
-      } else if (g < -error) {
+      } else {
         right = probe;
         gr = g;
       }
     }
   }
-  if (left > low) {
-    second.begin = left;
-    second.begin_slack = 0;
-    second.begin_trimmed = true;
+}
+
+/// Takes the stretch, in which `winner` is certainly shorter, off `loser` as far as the winner certainly sees it; only an end can be taken off.
+/// True if nothing is left.
+bool cut(WindowInterval& loser, Stretch shorter, const WindowInterval& winner) {
+  const double from = std::max(shorter.from, winner.begin + winner.begin_slack);
+  const double to = std::min(shorter.to, winner.end - winner.end_slack);
+  if (!(from < to)) return false;
+  const bool has_begin = from <= loser.begin, has_end = loser.end <= to;
+  if (has_begin && has_end) return true;
+  if (has_begin && to > loser.begin + loser.begin_slack) {
+    loser.begin = to;
+    loser.begin_slack = 0;
+    loser.begin_trimmed = true;
+  } else if (has_end && from < loser.end - loser.end_slack) {
+    loser.end = from;
+    loser.end_slack = 0;
+    loser.end_trimmed = true;
   }
-  if (right < first.end && first.end <= second.end) {  // what lies beyond the second is not its to cut off
-    first.end = right;
-    first.end_slack = 0;
-    first.end_trimmed = true;
-  }
-  return Trim::none;
+  return false;
+}
+
+}  // namespace
+
+Trim trim(WindowInterval& first, WindowInterval& second, double length) {
+  Difference difference(first, second, length);
+  if (difference.is_empty()) return Trim::none;
+  Stretch first_shorter, second_shorter;
+  difference.compare(first_shorter, second_shorter);
+  if (cut(second, first_shorter, first)) return Trim::drop_second;
+  return cut(first, second_shorter, second) ? Trim::drop_first : Trim::none;
 }
 
 }  // namespace gvd::kernel

@@ -94,5 +94,39 @@ TEST(WindowInterval, NothingIsCutBeyondTheEndOfTheOther) {
   EXPECT_GT(second.begin, 0.4);
 }
 
+// Each is unseen by the width of its slack where the common stretch begins or ends; the root lies well inside.
+TEST(WindowInterval, SlackAtTheOtherEndDoesNotHinder) {
+  WindowInterval first{}, second{};
+  first.image = {0.25, -1};
+  second.image = {0.75, -1};
+  first.end = 0.75;
+  second.begin = 0.25;
+  second.end = 1;
+  first.image_error = second.image_error = 1e-15F;
+  first.end_slack = second.begin_slack = 1e-12F;
+  EXPECT_EQ(kernel::trim(first, second, kLength), Trim::none);
+  EXPECT_NEAR(first.end, 0.5, 1e-6);
+  EXPECT_NEAR(second.begin, 0.5, 1e-6);
+  EXPECT_LE(second.begin, first.end);
+}
+
+// A relay's wave touches its parent's along the ray that bounds both: doubles cannot compare them there.
+TEST(WindowInterval, ARelayIsCutOffWhereItsParentSees) {
+  WindowInterval parent{}, relay{};
+  parent.image = {0.25, -2};
+  parent.end = 0.625;
+  relay.image = {0.4375, -1};
+  relay.weight = kLength * std::sqrt(0.1875 * 0.1875 + 1);
+  relay.end = 1;
+  for (WindowInterval* w : {&parent, &relay}) w->weight_error = w->image_error = 1e-15F;
+  for (const bool parent_first : {true, false}) {
+    WindowInterval a = parent, b = relay;
+    EXPECT_EQ(parent_first ? kernel::trim(a, b, kLength) : kernel::trim(b, a, kLength), Trim::none);
+    EXPECT_EQ(a.end, 0.625);
+    EXPECT_GT(b.begin, 0.6);
+    EXPECT_LT(b.begin, 0.625);
+  }
+}
+
 }  // namespace
 }  // namespace gvd::test

@@ -40,6 +40,13 @@ struct Candidate {
 
 /// What the propagation leaves, in scaled units (kernel/frames.hpp): every window and every candidate that may be shortest somewhere.
 struct DistanceField {
+  /// Whether the window stems from waves that were sent again since: each of its rays is there once more.
+  bool is_stale(WindowId window) const noexcept {
+    if (!restarted) return false;
+    while (windows[window].parent != kNone) window = windows[window].parent;
+    return windows[window].dead();
+  }
+
   std::vector<WindowRecord> windows;
   std::vector<WindowId> first_window;        ///< per half-edge: windows that come in over it
   std::vector<Candidate> candidates;
@@ -47,6 +54,7 @@ struct DistanceField {
   std::vector<std::uint8_t> corner_sees_face;  ///< per half-edge: its origin starts waves (source or relay) that may enter its face
   std::vector<double> distance, error;        ///< per vertex: |distance - D| <= error; infinity if unreachable
   std::uint64_t windows_propagated = 0;
+  bool restarted = false;                     ///< some vertex sent its waves again: there are dead windows
 };
 
 /// Where a wave starts.
@@ -57,7 +65,6 @@ struct WaveStart {
 
 /// Polled now and then with the number of settled vertices; return false to stop.
 using PropagationPoll = bool (*)(void* user, std::uint64_t settled, std::uint64_t bytes);
-
 
 /// Propagates the waves over the whole mesh (vertex-oriented triangle propagation, Qin et al. 2016, with certain drops only).
 /// Returns false if `poll` stopped it.
