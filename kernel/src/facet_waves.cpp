@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/predicates/filter_error.hpp"
@@ -149,52 +150,63 @@ void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
   strips_.push_back(std::move(arrival.strip));
 }
 
-/// The vertices on one side of a part of a strip. The sides crossed are directed against the half-edges that the window comes in over.
-std::vector<VertexId> FieldWaves::vertices_beside(const Strip& strip, std::size_t begin, std::size_t end, bool right, bool from_root) const {
-  const Mesh& mesh = resolution_.frames().mesh();
-  std::vector<VertexId> chain;
-  const auto pass = [&](HalfedgeId side) {
-    const VertexId v = right ? mesh.origin(side) : mesh.target(side);
-    if (chain.empty() || chain.back() != v) chain.push_back(v);
-  };
-  if (from_root) pass(strip.opposite);
-  for (std::size_t i = begin; i < end; ++i) pass(strip.steps[i].side);
-  return chain;
+/// The sides that a strip crosses, from its root on; each in the face that is left.
+FieldWaves::Sides FieldWaves::sides_of(const Strip& strip) {
+  Sides sides{strip.opposite};
+  for (const predicates::StripStep& step : strip.steps) sides.push_back(step.side);
+  return sides;
 }
 
-/// The two strips start at one root and end in this facet. Wherever they part, until they meet again, the vertices on the right of the left one must
-/// be those on the left of the right one: then the strips enclose nothing else.
-bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
-  if (sites[left].root != sites[right].root || sites[left].window == kNone || sites[right].window == kNone) return false;
-  const Strip &a = strips_[left], &b = strips_[right];
+/// Two ways from one root to this facet. Wherever they part, until they meet again, the vertices on the right of one must be those on the left of the
+/// other: then the ways enclose nothing else. Round flat vertices alone, either way unfolds the root to one image.
+bool FieldWaves::enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
   const Mesh& mesh = resolution_.frames().mesh();
-  bool from_root = a.opposite != b.opposite;
-  for (std::size_t i = 0, j = 0; from_root || i < a.steps.size() || j < b.steps.size();) {
-    if (!from_root && i < a.steps.size() && j < b.steps.size() && a.steps[i].side == b.steps[j].side) {
-      ++i, ++j;
+  const auto beside = [&](std::span<const HalfedgeId> part, bool right) {
+    std::vector<VertexId> chain;
+    for (const HalfedgeId side : part) {  // directed against the half-edge that the way comes in over
+      const VertexId v = right ? mesh.origin(side) : mesh.target(side);
+      if (chain.empty() || chain.back() != v) chain.push_back(v);
+    }
+    return chain;
+  };
+  const auto is_flat = [&](VertexId v) { return kinds_[v] == VertexKind::flat && !mesh.is_boundary(v); };
+  while (!a.empty() || !b.empty()) {
+    if (!a.empty() && !b.empty() && a.front() == b.front()) {
+      a = a.subspan(1), b = b.subspan(1);
       continue;
     }
-    std::size_t a_end = i, b_end = b.steps.size();
-    for (; a_end < a.steps.size() && b_end == b.steps.size(); ++a_end)
-      for (std::size_t k = j; k < b.steps.size() && b_end == b.steps.size(); ++k)
-        if (a.steps[a_end].side == b.steps[k].side) b_end = k;
-    if (b_end < b.steps.size()) --a_end;  // the loop has gone one too far
-    const auto chain = vertices_beside(a, i, a_end, true, from_root);
-    if (chain.empty() || chain != vertices_beside(b, j, b_end, false, from_root)) return false;
-    for (const VertexId v : chain)
-      if (kinds_[v] != VertexKind::flat || mesh.is_boundary(v)) return false;
-    from_root = false;
-    i = a_end;
-    j = b_end;
+    std::size_t a_end = 0, b_end = b.size();  // where they meet again
+    for (; a_end < a.size(); ++a_end) {
+      b_end = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[a_end]) - b.begin());
+      if (b_end < b.size()) break;
+    }
+    const auto of_a = a.first(a_end), of_b = b.first(b_end);
+    auto chain = beside(of_a, true);
+    if (chain != beside(of_b, false)) {
+      chain = beside(of_a, false);
+      if (chain != beside(of_b, true)) return false;
+    }
+    if (chain.empty() || !std::all_of(chain.begin(), chain.end(), is_flat)) return false;
+    a = a.subspan(a_end), b = b.subspan(b_end);
   }
   return true;
 }
 
-/// The relay's strip must be the end of the parent's, and before that the parent's strip must turn about the relay since it arrived there.
+bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
+  if (sites[left].root != sites[right].root || sites[left].window == kNone || sites[right].window == kNone) return false;
+  return enclose_only_flat(sides_of(strips_[left]), sides_of(strips_[right]));
+}
+
+/// The nearest way to the root of `relay` must be the parent's own, as far as that goes, and then turn about it into the strip of `relay`.
 bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
+  if (sites[parent].window == kNone) return false;
+  return has_relay_on_strip(parent, relay) || has_relay_beyond_flat(parent, relay);
+}
+
+/// Whether the relay's strip is the end of the parent's, and before that the parent's strip turns about the relay since it arrived there.
+bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
   const Mesh& mesh = resolution_.frames().mesh();
   const VertexId v = sites[relay].root;
-  if (sites[parent].window == kNone) return false;
   const auto& steps = strips_[parent].steps;
   std::size_t left = steps.size();
   WindowId w = sites[parent].window;
@@ -212,6 +224,57 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
     if (mesh.origin(h) != v && mesh.target(h) != v) return false;
     if (left-- == 0) return resolution_.attains_along_edge(sites[parent].root, v);
   }
+}
+
+/// The sides crossed when one turns about a vertex, from the first of them until face `end` is reached.
+std::optional<FieldWaves::Sides> FieldWaves::turn_about(HalfedgeId first, bool left, FaceId end) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  Sides sides;
+  HalfedgeId side = first;
+  do {
+    sides.push_back(side);
+    const HalfedgeId in = mesh.twin(side);
+    if (in == kNone) return std::nullopt;
+    if (Mesh::face(in) == end) return sides;
+    side = left ? Mesh::next(in) : Mesh::prev(in);
+  } while (side != first);
+  return std::nullopt;
+}
+
+/// A way to vertex v and on about it to face `end`; empty if it would leave the mesh.
+std::optional<FieldWaves::Sides> FieldWaves::way_about(const Candidate& way, VertexId v, bool left, FaceId end) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  if (way.window == kNone) {  // along an edge: the face beside it opposite v's next side
+    HalfedgeId edge = resolution_.edge_between(way.via, v);
+    if ((mesh.origin(edge) == v) == left) edge = mesh.twin(edge);
+    if (edge == kNone) return std::nullopt;
+    return turn_about(left ? Mesh::next(edge) : Mesh::prev(edge), left, end);
+  }
+  Sides sides = sides_of(strip_of(mesh, field_, way.window));
+  const HalfedgeId last = field_.windows[way.window].halfedge();
+  if (Mesh::face(last) == end) return sides;
+  const auto turn = turn_about(left ? Mesh::prev(last) : Mesh::next(last), left, end);
+  if (!turn) return std::nullopt;
+  sides.insert(sides.end(), turn->begin(), turn->end());
+  return sides;
+}
+
+/// The same where the parent's strip and the way through the relay have only flat vertices between them.
+bool FieldWaves::has_relay_beyond_flat(std::size_t parent, std::size_t relay) const {
+  const VertexId v = sites[relay].root;
+  const Sides own = sides_of(strips_[parent]);
+  const Sides rest = sites[relay].window == kNone ? Sides{} : sides_of(strips_[relay]);
+  const FaceId end = rest.empty() ? face : Mesh::face(rest.front());
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
+    if (field_.candidates[c].via != sites[parent].root) continue;
+    for (const bool left : {true, false}) {
+      auto way = way_about(field_.candidates[c], v, left, end);
+      if (!way) continue;
+      way->insert(way->end(), rest.begin(), rest.end());
+      if (enclose_only_flat(own, *way)) return true;
+    }
+  }
+  return false;
 }
 
 /// Follows the strip once more for the names of the cone's vertices.
@@ -351,18 +414,13 @@ const predicates::Site<FieldWaves::M>& FieldWaves::site(std::size_t i, M, int bi
 
 const predicates::FacetFrame<Exact>* FieldWaves::exact_frame() {
   Precise& p = precise();
-  if (!p.exact_tried) {
-    p.exact_tried = true;
-    if (!make_exact()) {
-      p.exact_frame.reset();
-      p.exact_sites.clear();
-    }
-  }
+  if (!p.exact_frame) make_exact();
   return p.exact_frame.get();
 }
 
 const predicates::Site<Exact>* FieldWaves::exact_site(std::size_t i) {
-  return exact_frame() != nullptr ? &precise_->exact_sites[i] : nullptr;
+  exact_frame();
+  return &precise_->exact_sites[i];
 }
 
 bool FieldWaves::exact_is_cheap() {
@@ -382,34 +440,35 @@ bool FieldWaves::exact_is_cheap() {
   return *known;
 }
 
-bool FieldWaves::make_exact() {
+void FieldWaves::make_exact() {
   Precise& p = *precise_;
   const Frames& frames = resolution_.frames();
-  const auto point = [](const predicates::RootPoint& z) { return PlanePoint<Exact>{Exact(z.x), Exact(z.y)}; };
-  const PlanePoint<Exact> apex = point(exact_apex(frames, 3 * face));
+  const predicates::RootPoint apex = exact_apex(frames, 3 * face);
   const Exact length = sqrt(Exact(frames.exact(face).squared[0]));
   p.exact_frame = std::make_unique<predicates::FacetFrame<Exact>>();
-  p.exact_frame->apex = apex;
+  p.exact_frame->apex = {Exact(apex.x), Exact(apex.y)};
   p.exact_frame->length = length.scaled(frames.scale());
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    const auto weight = resolution_.exact_distance(sites[i].root);
-    if (!weight) return false;
-    predicates::Site<Exact> site;
-    site.weight = *weight / length;
-    if (sites[i].window == kNone) {
-      site.image = sites[i].corner == 0 ? PlanePoint<Exact>{Exact(0.0), Exact(0.0)}
-                   : sites[i].corner == 1 ? PlanePoint<Exact>{Exact(1.0), Exact(0.0)}
-                                          : apex;
-    } else {
-      const auto at = resolution_.exact_unfolding(sites[i].window);
-      if (!at) return false;
-      site.has_cone = true;
-      site.image = to_first_side(point(at->image), sites[i].side, apex);
-      site.cone = {to_first_side(point(at->cone0), sites[i].side, apex), to_first_side(point(at->cone1), sites[i].side, apex)};
-    }
-    p.exact_sites.push_back(std::move(site));
+  p.exact_sites.reserve(sites.size());
+  for (const FacetSite& site : sites) p.exact_sites.push_back(exact_site(site, length));
+}
+
+/// Numbers that are not to be had are undefined: their signs are empty.
+predicates::Site<Exact> FieldWaves::exact_site(const FacetSite& site, const Exact& length) const {
+  const auto point = [](const predicates::RootPoint& z) { return PlanePoint<Exact>{Exact(z.x), Exact(z.y)}; };
+  const Exact undefined(std::numeric_limits<double>::quiet_NaN());
+  const PlanePoint<Exact> nowhere{undefined, undefined}, &apex = precise_->exact_frame->apex;
+  predicates::Site<Exact> result;
+  const auto weight = resolution_.exact_distance(site.root);
+  result.weight = weight ? *weight / length : undefined;
+  result.has_cone = site.window != kNone;
+  if (!result.has_cone) {
+    result.image = site.corner == 0 ? PlanePoint<Exact>{Exact(0.0), Exact(0.0)} : site.corner == 1 ? PlanePoint<Exact>{Exact(1.0), Exact(0.0)} : apex;
+    return result;
   }
-  return true;
+  const auto at = resolution_.exact_unfolding(site.window);
+  result.image = at ? to_first_side(point(at->image), site.side, apex) : nowhere;
+  result.cone = {at ? to_first_side(point(at->cone0), site.side, apex) : nowhere, at ? to_first_side(point(at->cone1), site.side, apex) : nowhere};
+  return result;
 }
 
 }  // namespace gvd::kernel

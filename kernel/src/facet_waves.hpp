@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gvd/kernel/distance_field.hpp"
@@ -46,14 +47,21 @@ class FieldWaves final : public FacetWaves {
   bool arrive(WindowId window, std::uint8_t side, Arrival& arrival) const;
   void add_window(Arrival&& arrival, std::uint8_t side);
   void add_corner(std::uint8_t k);
-  std::vector<VertexId> vertices_beside(const predicates::Strip& strip, std::size_t begin, std::size_t end, bool right, bool from_root) const;
+  using Sides = std::vector<HalfedgeId>;
+  static Sides sides_of(const predicates::Strip& strip);
+  bool enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
+  bool has_relay_on_strip(std::size_t parent, std::size_t relay) const;
+  bool has_relay_beyond_flat(std::size_t parent, std::size_t relay) const;
+  std::optional<Sides> turn_about(HalfedgeId first, bool left, FaceId end) const;
+  std::optional<Sides> way_about(const Candidate& way, VertexId v, bool left, FaceId end) const;
   void note_cone(FacetSite& site, const predicates::Strip& strip, WindowId window) const;
   template <class T>
   predicates::Site<robust::Ball<T>> make_site(const FacetSite& site, const predicates::Unfolding<T>& at, const robust::Ball<T>& weight,
                                               const predicates::EdgeFrame<T>& first, double unit) const;
   template <class T>
   predicates::FacetFrame<robust::Ball<T>> make_frame(const predicates::EdgeFrame<T>& first, double unit) const;
-  bool make_exact();
+  void make_exact();
+  predicates::Site<robust::Exact> exact_site(const FacetSite& site, const robust::Exact& length) const;
 
   const Resolution& resolution_;
   const DistanceField& field_;
@@ -73,7 +81,6 @@ class FieldWaves final : public FacetWaves {
     };
     std::map<int, AtBits> at_bits;
     std::optional<bool> one_class;
-    bool exact_tried = false;
     std::unique_ptr<predicates::FacetFrame<robust::Exact>> exact_frame;
     std::vector<predicates::Site<robust::Exact>> exact_sites;
   };

@@ -156,7 +156,7 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
     if (*seen == Sign::positive) continue;
     if (*seen == Sign::zero && !events.empty()) events[0].on_ray = true;
     if (*seen == Sign::negative) {
-      Event view_ends{from, from, ray, static_cast<std::uint8_t>(end), true, std::nullopt};
+      Event view_ends{from, from, ray, static_cast<std::uint8_t>(end), true, false, std::nullopt};
       view_ends.filtered = parameter(ladder_.filter(), side, view_ends);
       const auto real = happens(side, view_ends, previous);
       if (!real) return false;
@@ -175,7 +175,8 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   const int leaves = contenders_.tangent_end(from, to), arrives = contenders_.tangent_end(to, from);
   if (leaves == Contenders::kNotTangent && arrives == Contenders::kNotTangent) {
     if (contenders_.eclipses(from, to) || contenders_.eclipses(to, from)) return std::nullopt;
-    const Event event{from, to, FacetTessellation::kNoSite, 0, false, std::nullopt};
+    if (const auto event = contact(side, from, to); event || ladder_.failed()) return event;
+    const Event event{from, to, FacetTessellation::kNoSite, 0, false, false, std::nullopt};
     if (tie_is_at_corner(side, event)) return std::nullopt;
     return event;
   }
@@ -189,7 +190,21 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   const std::uint8_t corner = contenders_[relay].corner;
   if (corner == side || corner == (side + 1) % 3) return std::nullopt;  // the ray meets this side in its corner only
   return Event{from,  to,          contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end),
-               false, std::nullopt};
+               false, false, std::nullopt};
+}
+
+/// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it is seen.
+std::optional<OutlineWalk::Event> OutlineWalk::contact(std::size_t side, std::uint32_t from, std::uint32_t to) {
+  const Contender &a = contenders_[from], &b = contenders_[to];
+  if (!b.has_cone) return std::nullopt;
+  const auto gap = [&](const auto& numbers) {
+    return maybe_sign(predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root));
+  };
+  if (gap(ladder_.filter())) return std::nullopt;
+  const std::size_t begins = b.enters_over(side) ? 0 : 1;  // the ray where, going along the side, its cone begins
+  Event event{from, to, b.cone_site[begins], static_cast<std::uint8_t>(begins), true, true, std::nullopt};
+  const MaybeSign sign = ladder_.decide(Predicate::edge_tie, gap, [&] { return describe(side, event, "contact"); });
+  return sign == Sign::zero ? std::optional(event) : std::nullopt;
 }
 
 /// Two waves that tie at an end of the side by identity: whether the place where `to` overtakes `from` is that end.
@@ -229,6 +244,7 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
     if (!sign) open = true;
     return sign && *sign != Sign::positive;
   };
+  if (previous && event.ray != FacetTessellation::kNoSite && event.ray == previous->ray && event.ray_end == previous->ray_end) return Answer::no;
   if (event.ray != FacetTessellation::kNoSite) {  // the ray must cross the side, in the right sense
     const auto& parent = *numbers.sites[event.ray];
     const bool view_ends = contenders_[event.from].has_cone && contenders_[event.from].cone_site[event.ray_end] == event.ray;
@@ -259,6 +275,13 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
     else if (excludes(tie.t - before.t))
       return Answer::no;
   }
+  if (event.contact) {
+    const auto p = predicates::point_at(numbers.side[side], tie.t);
+    const MaybeSign farther = maybe_sign(predicates::distance(*numbers.sites[contenders_[event.to].site], p) -
+                                         predicates::distance(*numbers.sites[contenders_[event.from].site], p));
+    if (farther == Sign::positive) return Answer::no;
+    open = open || !farther;
+  }
   if (open) return std::nullopt;
   return on_ray ? Answer::on_ray : Answer::yes;
 }
@@ -268,7 +291,7 @@ std::optional<bool> OutlineWalk::happens(std::size_t side, Event& event, const s
       Predicate::edge_tie, [&](const auto& numbers) { return happens_in(numbers, side, event, previous); },
       [&] { return describe(side, event, "overtaking"); });
   if (!answer) return std::nullopt;
-  event.on_ray = *answer == Answer::on_ray;
+  event.on_ray = event.contact || *answer == Answer::on_ray;
   return *answer != Answer::no;
 }
 
@@ -289,6 +312,7 @@ bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
   node.kind = Node::Kind::side;
   node.where = static_cast<std::uint8_t>(side);
   const bool view_ends = first.to == first.from;
+  const bool any_contact = std::any_of(tied.begin(), tied.end(), [](const Event& event) { return event.contact; });
   if (!view_ends) node.defining = {contenders_[first.from].site, contenders_[first.to].site, FacetTessellation::kNoSite};
   node.ray = first.ray;
   node.ray_end = first.ray_end;
@@ -298,8 +322,8 @@ bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
     for (const Event& event : tied)
       if (event.to != first.from) waves.push_back(event.to);
     Ring ring(waves_, contenders_, ladder_);
-    for (std::uint32_t other = 0; view_ends && other < contenders_.size(); ++other)
-      if (other != first.from && ring.ties(node, first.from, other) == true) waves.push_back(other);
+    for (std::uint32_t other = 0; (view_ends || any_contact) && other < contenders_.size(); ++other)
+      if (std::find(waves.begin(), waves.end(), other) == waves.end() && ring.ties(node, first.from, other) == true) waves.push_back(other);
     if (!ladder_.failed()) ahead = ring.regions(node, waves);
     if (ladder_.failed()) return false;
     if (ahead.back() != first.from) {

@@ -26,12 +26,14 @@ class OutlineWalk {
   std::vector<Occurrence> walk();
 
  private:
-  /// A place on a side where `to` takes over from `from`; or, if they are one, where the view of `from` ends.
+  /// A place on a side where `to` takes over from `from`; or, if they are one, where the view of `from` ends; or, if `contact`, where a wave that
+  /// touches `from` along the side without crossing it comes into view.
   struct Event {
     std::uint32_t from, to;
     std::uint32_t ray = FacetTessellation::kNoSite;  ///< site whose boundary ray crosses the side there, if they are tangent
     std::uint8_t ray_end = 0;
     bool on_ray = false;  ///< the point lies on a boundary ray of `to` or `from`, other than `ray`
+    bool contact = false;
     std::optional<predicates::SideTie<FacetWaves::F>> filtered;  ///< its parameter in the filter's numbers, once asked for
   };
   /// Where a contender may be seen along a side: certainly nowhere else.
@@ -46,6 +48,7 @@ class OutlineWalk {
   std::optional<std::vector<Event>> next_events(std::size_t side, std::uint32_t from, const std::optional<Event>& previous);
   void find_stretches();
   std::optional<Event> candidate(std::size_t side, std::uint32_t from, std::uint32_t to);
+  std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
   std::optional<bool> happens(std::size_t side, Event& event, const std::optional<Event>& previous);
   template <class NT>

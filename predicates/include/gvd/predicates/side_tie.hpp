@@ -30,6 +30,16 @@ struct SideTie {
   NT t;  ///< parameter along the side; it may lie outside [0, 1]
 };
 
+/// E (|a|^2 - s^2) for the wave `to` and the image of `from` mirrored in the side; zero if and only if the waves tie along the whole line (mirror
+/// images of equal weights) or touch in one point of it without crossing, or never.
+template <class NT>
+NT mirrored_gap(const SideLine<NT>& side, const Site<NT>& from, const Site<NT>& to, bool same_weight) {
+  const PlanePoint<NT> a = to.image - from.image;
+  const NT k = cross(side.direction, from.image - side.origin), turn = cross(side.direction, a);
+  const NT square_gap = same_weight ? squared_norm(a) : squared_norm(a) - square(to.weight - from.weight);
+  return side.square * square_gap + ((k + turn) * k).scaled(2);
+}
+
 /// Where, going along the line of the side, wave `to` overtakes wave `from` (cones aside): the zero of d_to - d_from where it falls.
 /// It is unique: with X = t minus the foot of `from`'s image, rho = d_from - weight_from, alpha = direction.(to - from),
 /// s = weight_to - weight_from and E = |direction|^2, the tie is alpha X - s rho = c, rho^2 = E X^2 + h^2, and the derivative of d_to - d_from
@@ -52,14 +62,14 @@ SideTie<NT> overtaking(const SideLine<NT>& side, const Site<NT>& from, const Sit
   }
   const NT s = to.weight - from.weight;
   const NT gap = squared_norm(a) - square(s);
-  const NT mirrored_gap = side.square * gap + ((k + turn) * k).scaled(2);
+  const NT of_mirror_image = mirrored_gap(side, from, to, same_weight);
   conditions.require_positive(maybe_sign(gap));
-  conditions.require_positive(maybe_sign(mirrored_gap));
+  conditions.require_positive(maybe_sign(of_mirror_image));
   tie.existence = conditions.result();
   if (tie.existence != Existence::proved) return tie;
 
   const NT c = gap.scaled(-1) + turn * k / side.square;
-  const NT w = sqrt(gap * mirrored_gap).scaled(-1);
+  const NT w = sqrt(gap * of_mirror_image).scaled(-1);
   const NT first = w * s, second = alpha * c;
   NT rho;
   if (likely_positive(first) == likely_positive(second)) {
