@@ -65,6 +65,17 @@ int replay_file(const FuzzArguments& a) {
   return result.violated.empty() ? 0 : kFindings;
 }
 
+int set_against(const FuzzArguments& a, const CampaignOptions& campaign) {
+  if (a.replay.empty()) {
+    const AgainstReport report = run_against(campaign, a.against);
+    print(report.text());
+    return report.witness.empty() ? 0 : kFindings;
+  }
+  const Judgement j = judge(read_case(a.replay), a.against);
+  print(fmt::format("{}: {}, worst relative error {:.3g}\n", failure_name(j.failure), j.what, j.worst));
+  return j.failure == Failure::none ? 0 : kFindings;
+}
+
 int merge_files(const FuzzArguments& a) {
   std::vector<CaseResult> all;
   for (const auto& file : a.merge) {
@@ -107,6 +118,17 @@ void add_fuzz_command(CLI::App& app, FuzzArguments& a) {
   fuzz->add_option("--findings", c.findings, "Folder for failing cases")->capture_default_str()->type_name("DIR");
   add_time(*fuzz, "--shrink-time", c.shrink_seconds, "Longest time to spend on shrinking a failing case");
   fuzz->add_option("--replay", a.replay, "Look at a written case again")->type_name("FILE.off");
+  fuzz->add_option(
+          "--against", a.against.command,
+          "Judge another program: {mesh} (OFF), {sources} and {out} (CSV: vertex,distance[,source]) in the command are file names")
+      ->type_name("COMMAND");
+  fuzz->add_option("--tolerance", a.against.tolerance, "With --against: a larger relative error is a wrong distance")
+      ->capture_default_str();
+  add_time(*fuzz, "--case-time", a.against.limits.seconds, "With --against: longest time for one case");
+  fuzz->add_option_function<std::string>(
+          "--case-memory", [&a](const std::string& text) { a.against.limits.bytes = cli::parse_bytes(text); },
+          "With --against: largest address space")
+      ->type_name("SIZE");
   fuzz->add_flag("--list", a.list, "List properties, families and patterns");
   fuzz->add_flag("-q,--quiet", c.quiet, "No progress on the standard error");
   auto* merge = fuzz->add_subcommand("merge", "Join results files: each case once, in order");
@@ -116,15 +138,17 @@ void add_fuzz_command(CLI::App& app, FuzzArguments& a) {
       "Exit code 1: something was found.\nExamples:\n"
       "  gvd fuzz --time 10m --out results.jsonl\n"
       "  gvd fuzz --cases 1000 --seed 7 --family slivers --property renumbering\n"
+      "  gvd fuzz --time 1m --against 'other_program {mesh} {sources} {out}'\n"
       "  gvd fuzz merge part-*.jsonl --out results.jsonl\n");
 }
 
 int run_fuzz_command(const FuzzArguments& a) {
   if (a.list) return list();
   if (!a.merge.empty()) return merge_files(a);
-  if (!a.replay.empty()) return replay_file(a);
   CampaignOptions campaign = a.campaign;
   if (campaign.cases == 0 && campaign.seconds == 0) campaign.cases = 1000;
+  if (!a.against.command.empty()) return set_against(a, campaign);
+  if (!a.replay.empty()) return replay_file(a);
   const Tally tally = run_campaign(campaign);
   print(tally.text());
   return tally.violations() == 0 ? 0 : kFindings;

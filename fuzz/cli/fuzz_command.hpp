@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/campaign/against.hpp"
 #include "fuzz/campaign/campaign.hpp"
 
 namespace gvd::fuzz {
@@ -11,6 +12,7 @@ namespace gvd::fuzz {
 /// What the arguments of `gvd fuzz` said.
 struct FuzzArguments {
   CampaignOptions campaign;
+  AgainstOptions against;
   std::string replay;
   std::vector<std::string> merge;
   bool list = false, json = false;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "gvd/io/mesh_reader.hpp"
@@ -91,6 +93,12 @@ Case parse_case(const std::string& text, const std::string& name) {
     c.sources.push_back(place);
   }
   return c;
+}
+
+Case read_case(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file + ": cannot be read");
+  return parse_case(std::string(std::istreambuf_iterator<char>(in), {}), file);
 }
 
 }  // namespace gvd::fuzz

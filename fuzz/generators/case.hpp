@@ -39,5 +39,6 @@ std::string source_text(const std::vector<Place>& sources);
 /// One file with both: `# ...` lines, the sources as comments of the OFF file, and `read_case` reads it again.
 std::string case_text(const Case& c, const std::vector<std::string>& remarks);
 Case parse_case(const std::string& text, const std::string& name);
+Case read_case(const std::string& file);
 
 }  // namespace gvd::fuzz

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
+#include <sstream>
 
 #include "fuzz/properties/property.hpp"
 #include "fuzz/properties/surface_points.hpp"
@@ -106,6 +108,25 @@ std::string canonical_text(const kernel::Solution& solution, const Altered& alte
   return canonical(diagram, {altered.source});
 }
 
+/// A closed edge starts in its lexicographically least point, which depends on the order of the axes: its points as a set.
+std::string without_starts(const std::string& text) {
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("closed") == std::string::npos) {
+      result += line + "\n";
+      continue;
+    }
+    std::set<std::string> points;
+    for (std::size_t at = line.find('('); at != std::string::npos; at = line.find('(', at + 1))
+      points.insert(line.substr(at, line.find(')', at) - at));
+    result += "closed";
+    for (const auto& point : points) result += " " + point;
+    result += "\n";
+  }
+  return result;
+}
+
 /// The first line in which two texts differ.
 std::string difference(const std::string& a, const std::string& b) {
   const auto end = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
@@ -131,7 +152,8 @@ Outcome same_results(Trial& t, const Altered& altered, unsigned threads = 1) {
       return violated(
           fmt::format("{}: nearest were {} and are {}", vertex_name(v), text_of(nearest(t.solution(), v)), text_of(labels)));
   }
-  const std::string first = canonical_text(t.solution(), Altered(t.problem())), second = canonical_text(other, altered);
+  const std::string first = without_starts(canonical_text(t.solution(), Altered(t.problem()))),
+                    second = without_starts(canonical_text(other, altered));
   return first == second ? holds() : violated("the diagrams differ: " + difference(first, second));
 }
 

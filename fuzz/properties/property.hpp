@@ -48,6 +48,7 @@ std::span<const Property> remeshing_properties();
 std::span<const Property> planar_properties();
 std::span<const Property> diagram_properties();
 std::span<const Property> facet_properties();
+std::span<const Property> stage_properties();
 std::span<const Property> enumeration_properties();
 
 }  // namespace gvd::fuzz

@@ -64,6 +64,12 @@ const Solution& Trial::solution() {
   return *solution_;
 }
 
+const Solution& Trial::field() {
+  if (solution_) return *solution_;
+  if (!field_) field_ = solve(mesh_, sources_, false);
+  return *field_;
+}
+
 const Solution& Trial::alone(kernel::SourceId s) {
   const auto found = alone_.find(s);
   if (found != alone_.end()) return found->second;

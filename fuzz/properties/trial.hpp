@@ -73,6 +73,8 @@ class Trial {
 
   /// All sources, with the diagram.
   const kernel::Solution& solution();
+  /// All sources, the distance field only: that of `solution` if it is there.
+  const kernel::Solution& field();
   bool certified() { return solution().status() == kernel::Status::certified; }
   /// One source alone, the distance field only.
   const kernel::Solution& alone(kernel::SourceId s);
@@ -91,7 +93,7 @@ class Trial {
   std::uint64_t seed_;
   kernel::Mesh mesh_;
   std::vector<kernel::Source> sources_;
-  std::optional<kernel::Solution> solution_;
+  std::optional<kernel::Solution> solution_, field_;
   std::map<kernel::SourceId, kernel::Solution> alone_;
 };
 
