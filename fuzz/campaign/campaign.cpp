@@ -110,6 +110,7 @@ class Campaign {
       const CaseResult result = run_case(seed, options_.wish, options_.choice);
       append(result);
       for (const auto& [property, what] : result.violated) report(seed, property, what);
+      if (options_.stop_at_first && !result.violated.empty()) break;
       if (!options_.quiet && shared_->started % 1000 == 0) fmt::print(stderr, "gvd: fuzz: {} cases\n", shared_->started.load());
     }
     shared_->done = true;
@@ -153,6 +154,7 @@ class Campaign {
     const std::string file = write_finding(c, seed, "runs_to_its_end", end, options_.findings, 0);
     fmt::print(stderr, "gvd: fuzz: seed {}: {}\ngvd: fuzz:   gvd fuzz --replay {}\n", seed, end, file);
     shared_->index = index + options_.shards;
+    if (options_.stop_at_first) shared_->done = true;
   }
 
   const CampaignOptions& options_;

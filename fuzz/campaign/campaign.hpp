@@ -19,6 +19,7 @@ struct CampaignOptions {
   std::string out;                    ///< results file; cases that it holds already are not run again. Empty: none
   std::string findings = "findings";  ///< folder for failing cases, made when there is one
   double shrink_seconds = 20;
+  bool stop_at_first = false;   ///< end at the first finding
   bool quiet = false;
 };
 

@@ -117,6 +117,7 @@ void add_fuzz_command(CLI::App& app, FuzzArguments& a) {
       ->type_name("FILE.jsonl");
   fuzz->add_option("--findings", c.findings, "Folder for failing cases")->capture_default_str()->type_name("DIR");
   add_time(*fuzz, "--shrink-time", c.shrink_seconds, "Longest time to spend on shrinking a failing case");
+  fuzz->add_flag("--first", c.stop_at_first, "End at the first finding");
   fuzz->add_option("--replay", a.replay, "Look at a written case again")->type_name("FILE.off");
   fuzz->add_option(
           "--against", a.against.command,
