@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gvd/predicates/side_tie.hpp"
+
 namespace gvd::kernel {
 namespace {
 
@@ -87,7 +89,14 @@ Sign Ring::same_line(const Direction& a, const Direction& b) const {
 
 MaybeSign Ring::turn(const Direction& a, const Direction& b) {
   if (same_line(a, b) != Sign::zero) return Sign::zero;
-  return decide([&](const auto& numbers) { return maybe_sign(cross(vector(numbers, a), vector(numbers, b))); });
+  const auto test = [&](const auto& numbers) { return maybe_sign(cross(vector(numbers, a), vector(numbers, b))); };
+  // Mirrored waves take over from one another in the direction of the side.
+  const Direction &side = is_side(a) ? a : b, &change = is_side(a) ? b : a;
+  if (is_side(side) && change.kind == Direction::Kind::overtaking && !test(ladder_.filter()) && are_mirrored(change.a, change.b, side)) {
+    ladder_.count(predicate_at(node_->kind), robust::Stage::algebra);
+    return Sign::zero;
+  }
+  return decide(test);
 }
 
 MaybeSign Ring::along(const Direction& a, const Direction& b) {
@@ -210,6 +219,36 @@ MaybeSign Ring::behind(std::uint32_t i, std::uint32_t j) {
   });
 }
 
+/// Whether d is that of a side of the facet on which the point lies.
+bool Ring::is_side(const Direction& d) const {
+  return node_->kind != Node::Kind::inside && (d.kind == Direction::Kind::side || d.kind == Direction::Kind::back);
+}
+
+/// Whether the images of i and j are mirrored in the line of such a side, and the weights equal: then the waves tie
+/// along it. Unlike a slope, this needs no number of the point itself.
+bool Ring::are_mirrored(std::uint32_t i, std::uint32_t j, const Direction& d) {
+  const Contender &a = contenders_[tied_[i].contender], &b = contenders_[tied_[j].contender];
+  const bool same_weight = a.root == b.root;
+  const auto gap = [&](const auto& numbers, robust::Stage) {
+    return maybe_sign(predicates::mirrored_gap(numbers.side[d.a], *numbers.sites[a.site], *numbers.sites[b.site], same_weight));
+  };
+  const auto heavier = [&](const auto& numbers, robust::Stage) {
+    return maybe_sign(numbers.sites[a.site]->weight - numbers.sites[b.site]->weight);
+  };
+  if (gap(ladder_.filter(), robust::Stage::filter) || ladder_.for_each_stage(gap) != Sign::zero) return false;
+  return same_weight || ladder_.for_each_stage(heavier) == Sign::zero;
+}
+
+/// Positive if i is nearer than j in direction d, to first order.
+MaybeSign Ring::slope(std::uint32_t i, std::uint32_t j, const Direction& d) {
+  const auto test = [&](const auto& numbers) { return maybe_sign(dot(vector(numbers, d), difference(numbers, i, j))); };
+  if (is_side(d) && !test(ladder_.filter()) && are_mirrored(i, j, d)) {
+    ladder_.count(predicate_at(node_->kind), robust::Stage::algebra);
+    return Sign::zero;
+  }
+  return decide(test);
+}
+
 /// Positive if i is nearer than j in directions right after d, cones aside; zero if they have one image.
 MaybeSign Ring::better_after(std::uint32_t i, std::uint32_t j, const Direction& d) {
   if (tied_[i].starts_here || tied_[j].starts_here) return tied_[i].starts_here ? Sign::negative : Sign::positive;
@@ -219,8 +258,7 @@ MaybeSign Ring::better_after(std::uint32_t i, std::uint32_t j, const Direction& 
   const bool is_change = d.kind == Direction::Kind::overtaking;
   if (is_change && d.a == j && d.b == i) return Sign::positive;
   if (is_change && d.a == i && d.b == j) return Sign::negative;
-  const MaybeSign sign =
-      decide([&](const auto& numbers) { return maybe_sign(dot(vector(numbers, d), difference(numbers, i, j))); });
+  const MaybeSign sign = slope(i, j, d);
   if (sign != Sign::zero) return sign;
   return decide([&](const auto& numbers) { return maybe_sign(cross(vector(numbers, d), difference(numbers, i, j))); });
 }
@@ -269,12 +307,12 @@ std::optional<std::uint32_t> Ring::along_side(const Direction& d, Beside beside,
   for (std::uint32_t i = 0; i < tied_.size(); ++i) {
     const std::uint32_t a = tied_[i].contender, b = tied_[inward].contender;
     if (tied_[i].starts_here || contenders_[a].root == contenders_[b].root) continue;
-    const MaybeSign slope =
-        decide([&](const auto& numbers) { return maybe_sign(dot(vector(numbers, d), difference(numbers, i, inward))); });
-    if (slope && *slope != Sign::zero) continue;
+    if (i == inward) continue;
+    const MaybeSign gain = slope(i, inward, d);
+    if (gain && *gain != Sign::zero) continue;
     const auto visible = seen(i, d, beside);
     const auto one_line = same_direction(i, inward);
-    if (!slope || !visible || !one_line) return std::nullopt;
+    if (!gain || !visible || !one_line) return std::nullopt;
     if (!*visible || *one_line) continue;
     const MaybeSign lighter = behind(i, inward);
     if (!lighter) return std::nullopt;

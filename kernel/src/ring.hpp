@@ -47,6 +47,9 @@ class Ring {
   enum class Beside : std::uint8_t { before, after };
   std::optional<bool> seen(std::uint32_t i, const Direction& d, Beside beside);
   robust::MaybeSign better_after(std::uint32_t i, std::uint32_t j, const Direction& d);
+  bool is_side(const Direction& d) const;
+  bool are_mirrored(std::uint32_t i, std::uint32_t j, const Direction& d);
+  robust::MaybeSign slope(std::uint32_t i, std::uint32_t j, const Direction& d);
   std::optional<bool> same_direction(std::uint32_t i, std::uint32_t j);
   robust::MaybeSign behind(std::uint32_t i, std::uint32_t j);
   std::optional<std::uint32_t> along_side(const Direction& d, Beside beside, std::uint32_t inward);
