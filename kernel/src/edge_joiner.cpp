@@ -211,12 +211,14 @@ bool EdgeJoiner::contradict(const View& view, std::span<const Piece> of_left, st
   return true;
 }
 
-/// The inner events [from, to) of one side that lie between two consecutive stations. Stations of the own side bound them by their
-/// order; the others are compared. Nothing if that fails.
+/// The inner events [from, to) of one side that lie between two consecutive stations; one that lies in the very place of either
+/// becomes a part of it. Stations of the own side bound them by their order; the others are compared. Nothing if that fails.
 std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& view, bool of_left, std::size_t from, std::size_t to,
-                                                                 const Station* before, const Station* behind) {
+                                                                 Station* before, Station* behind) {
+  const SideView& side = of_left ? view.of_left : view.of_right;
   const auto order_against = [&](std::size_t event, const Station* station) {
     const std::uint32_t own = of_left ? station->node_left : station->node_right;
+    if (own == side.events[event].node) return Order::equal;
     if (own != kNone) return station == before ? Order::greater : Order::less;
     const auto& others = (of_left ? view.of_right : view.of_left).events;
     const std::uint32_t node = of_left ? station->node_right : station->node_left;
@@ -231,6 +233,8 @@ std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& vie
     const Order low = before == nullptr ? Order::greater : order_against(event, before);
     const Order high = behind == nullptr ? Order::less : order_against(event, behind);
     if (low == Order::unknown || high == Order::unknown) return std::nullopt;
+    for (Station* station : {low == Order::equal ? before : nullptr, high == Order::equal ? behind : nullptr})
+      if (station != nullptr) (of_left ? station->node_left : station->node_right) = side.events[event].node;
     if (low == Order::greater && high == Order::less) found.push_back(event);
   }
   return found;
@@ -246,8 +250,10 @@ bool EdgeJoiner::insert_inner_events(const View& view, Joint& joint) {
   std::vector<Station> all;
   std::size_t i = 0, j = 0;  // events of either side from the last essential one on
   for (std::size_t gap = 0; gap <= joint.stations.size(); ++gap) {
-    const Station* before = gap == 0 ? nullptr : &joint.stations[gap - 1];
-    const Station* behind = gap == joint.stations.size() ? nullptr : &joint.stations[gap];
+    Station* before = gap == 0 ? nullptr : &all.back();  // the one before the gap
+    Station* behind = gap == joint.stations.size() ? nullptr : &joint.stations[gap];
+    const bool left_goes_on = behind != nullptr && behind->node_left != kNone,
+               right_goes_on = behind != nullptr && behind->node_right != kNone;
     const std::size_t i_end = essential_from(view.of_left, i), j_end = essential_from(view.of_right, j);
     if (view.of_left.pieces[i].labels != view.of_right.pieces[j].labels) {
       if (contradict(view, pieces_from(view.of_left, i, i_end), pieces_from(view.of_right, j, j_end))) return false;
@@ -257,8 +263,8 @@ bool EdgeJoiner::insert_inner_events(const View& view, Joint& joint) {
     }
     if (behind == nullptr) break;
     all.push_back(*behind);
-    if (behind->node_left != kNone) i = i_end + 1;
-    if (behind->node_right != kNone) j = j_end + 1;
+    if (left_goes_on) i = i_end + 1;
+    if (right_goes_on) j = j_end + 1;
   }
   joint.stations = std::move(all);
   return true;

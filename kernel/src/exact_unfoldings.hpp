@@ -7,8 +7,8 @@
 
 namespace gvd::kernel {
 
-/// The windows of a finished distance field in exact numbers. A window is its parent's unfolding and one step more, so the last ones made are kept:
-/// facets beside each other ask for windows of the same strips. Thread-safe.
+/// The windows of a finished distance field in exact numbers. A window is its parent's unfolding and one step more, so the last
+/// ones made are kept: facets beside each other ask for windows of the same strips. Thread-safe.
 class ExactUnfoldings {
  public:
   ExactUnfoldings(const Frames& frames, const DistanceField& field) : frames_(frames), field_(field) {}

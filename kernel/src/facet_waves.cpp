@@ -62,7 +62,8 @@ void FieldWaves::add_corner(std::uint8_t k) {
   if (k == 0) numbers.image = {F(0.0), F(0.0)};
   if (k == 1) numbers.image = {F(1.0), F(0.0)};
   if (k == 2) numbers.image = frame_.apex;
-  numbers.weight = narrowed(resolution_.distance(corner[k])) / predicates::enclosed_length(frames(3 * face), predicates::unit<double>(0));
+  numbers.weight =
+      narrowed(resolution_.distance(corner[k])) / predicates::enclosed_length(frames(3 * face), predicates::unit<double>(0));
   sites.push_back(site);
   sites_.push_back(numbers);
   strips_.emplace_back();
@@ -75,9 +76,8 @@ void FieldWaves::add_side(std::uint8_t side) {
     Arrival arrival;
     if (arrive(w, side, arrival)) list.push_back(std::move(arrival));
   }
-  std::sort(list.begin(), list.end(), [](const Arrival& a, const Arrival& b) {
-    return a.begin != b.begin ? a.begin < b.begin : a.window < b.window;
-  });
+  std::sort(list.begin(), list.end(),
+            [](const Arrival& a, const Arrival& b) { return a.begin != b.begin ? a.begin < b.begin : a.window < b.window; });
   const double length = resolution_.frames()(3 * face + side).length;
   std::vector<Arrival> kept;
   for (Arrival& arrival : list) {
@@ -157,8 +157,9 @@ FieldWaves::Sides FieldWaves::sides_of(const Strip& strip) {
   return sides;
 }
 
-/// Two ways from one root to this facet. Wherever they part, until they meet again, the vertices on the right of one must be those on the left of the
-/// other: then the ways enclose nothing else. Round flat vertices alone, either way unfolds the root to one image.
+/// Two ways from one root to this facet. Wherever they part, until they meet again, the vertices on the right of one must be those
+/// on the left of the other: then the ways enclose nothing else. Round flat vertices alone, either way unfolds the root to one
+/// image.
 bool FieldWaves::enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
   const Mesh& mesh = resolution_.frames().mesh();
   const auto beside = [&](std::span<const HalfedgeId> part, bool right) {
@@ -197,13 +198,15 @@ bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   return enclose_only_flat(sides_of(strips_[left]), sides_of(strips_[right]));
 }
 
-/// The nearest way to the root of `relay` must be the parent's own, as far as that goes, and then turn about it into the strip of `relay`.
+/// The nearest way to the root of `relay` must be the parent's own, as far as that goes, and then turn about it into the strip of
+/// `relay`.
 bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
   if (sites[parent].window == kNone) return false;
   return has_relay_on_strip(parent, relay) || has_relay_beyond_flat(parent, relay);
 }
 
-/// Whether the relay's strip is the end of the parent's, and before that the parent's strip turns about the relay since it arrived there.
+/// Whether the relay's strip is the end of the parent's, and before that the parent's strip turns about the relay since it arrived
+/// there.
 bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
   const Mesh& mesh = resolution_.frames().mesh();
   const VertexId v = sites[relay].root;
@@ -281,7 +284,8 @@ bool FieldWaves::has_relay_beyond_flat(std::size_t parent, std::size_t relay) co
 void FieldWaves::note_cone(FacetSite& site, const Strip& strip, WindowId window) const {
   const Mesh& mesh = resolution_.frames().mesh();
   std::array<bool, 2> known{false, false};
-  // A strip may turn about a vertex more than once in a lifetime: what bounds the cone is a corner of the facet only if no step since has left it.
+  // A strip may turn about a vertex more than once in a lifetime: what bounds the cone is a corner of the facet only if no step
+  // since has left it.
   std::array<bool, 2> at_corner{true, true};
   for (std::size_t c = 0; c < 2; ++c) {
     const bool turning_left = c == 0;
@@ -349,7 +353,8 @@ predicates::Site<Ball<T>> FieldWaves::make_site(const FacetSite& site, const Unf
   }
   result.has_cone = true;
   result.image = to_first_side(predicates::balls(at.image), site.side, apex);
-  result.cone = {to_first_side(predicates::balls(at.cone0), site.side, apex), to_first_side(predicates::balls(at.cone1), site.side, apex)};
+  result.cone = {to_first_side(predicates::balls(at.cone0), site.side, apex),
+                 to_first_side(predicates::balls(at.cone1), site.side, apex)};
   return result;
 }
 
@@ -392,8 +397,8 @@ const predicates::Site<FieldWaves::DD>& FieldWaves::site(std::size_t i, DD) {
     const auto& first = resolution_.frames().in_double_double(3 * face);
     Unfolding<DoubleDouble> at;
     if (sites[i].window != kNone) at = unfold_double_double(resolution_.frames(), strips_[i]);
-    p.dd_sites[i] = std::make_unique<predicates::Site<DD>>(make_site<DoubleDouble>(
-        sites[i], at, resolution_.distance(sites[i].root), first, predicates::unit<DoubleDouble>(0)));
+    p.dd_sites[i] = std::make_unique<predicates::Site<DD>>(
+        make_site<DoubleDouble>(sites[i], at, resolution_.distance(sites[i].root), first, predicates::unit<DoubleDouble>(0)));
   }
   return *p.dd_sites[i];
 }
@@ -433,8 +438,8 @@ bool FieldWaves::exact_is_cheap() {
     for (std::size_t i = 0; i < sites.size() && *known; ++i) {
       if (sites[i].window == kNone) continue;
       const Strip& strip = strips_[i];
-      known = is_here(strip.opposite) &&
-              std::all_of(strip.steps.begin(), strip.steps.end(), [&](const predicates::StripStep& step) { return is_here(step.side); });
+      known = is_here(strip.opposite) && std::all_of(strip.steps.begin(), strip.steps.end(),
+                                                     [&](const predicates::StripStep& step) { return is_here(step.side); });
     }
   }
   return *known;
@@ -462,12 +467,15 @@ predicates::Site<Exact> FieldWaves::exact_site(const FacetSite& site, const Exac
   result.weight = weight ? *weight / length : undefined;
   result.has_cone = site.window != kNone;
   if (!result.has_cone) {
-    result.image = site.corner == 0 ? PlanePoint<Exact>{Exact(0.0), Exact(0.0)} : site.corner == 1 ? PlanePoint<Exact>{Exact(1.0), Exact(0.0)} : apex;
+    result.image = site.corner == 0   ? PlanePoint<Exact>{Exact(0.0), Exact(0.0)}
+                   : site.corner == 1 ? PlanePoint<Exact>{Exact(1.0), Exact(0.0)}
+                                      : apex;
     return result;
   }
   const auto at = resolution_.exact_unfolding(site.window);
   result.image = at ? to_first_side(point(at->image), site.side, apex) : nowhere;
-  result.cone = {at ? to_first_side(point(at->cone0), site.side, apex) : nowhere, at ? to_first_side(point(at->cone1), site.side, apex) : nowhere};
+  result.cone = {at ? to_first_side(point(at->cone0), site.side, apex) : nowhere,
+                 at ? to_first_side(point(at->cone1), site.side, apex) : nowhere};
   return result;
 }
 

@@ -189,16 +189,19 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   if (last_ray != relay_takes_over) return std::nullopt;
   const std::uint8_t corner = contenders_[relay].corner;
   if (corner == side || corner == (side + 1) % 3) return std::nullopt;  // the ray meets this side in its corner only
-  return Event{from,  to,          contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end),
-               false, false, std::nullopt};
+  return Event{
+      from,  to,          contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end), false,
+      false, std::nullopt};
 }
 
-/// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it is seen.
+/// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it
+/// is seen.
 std::optional<OutlineWalk::Event> OutlineWalk::contact(std::size_t side, std::uint32_t from, std::uint32_t to) {
   const Contender &a = contenders_[from], &b = contenders_[to];
   if (!b.has_cone) return std::nullopt;
   const auto gap = [&](const auto& numbers) {
-    return maybe_sign(predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root));
+    return maybe_sign(
+        predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root));
   };
   if (gap(ladder_.filter())) return std::nullopt;
   const std::size_t begins = b.enters_over(side) ? 0 : 1;  // the ray where, going along the side, its cone begins
@@ -244,7 +247,8 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
     if (!sign) open = true;
     return sign && *sign != Sign::positive;
   };
-  if (previous && event.ray != FacetTessellation::kNoSite && event.ray == previous->ray && event.ray_end == previous->ray_end) return Answer::no;
+  if (previous && event.ray != FacetTessellation::kNoSite && event.ray == previous->ray && event.ray_end == previous->ray_end)
+    return Answer::no;
   if (event.ray != FacetTessellation::kNoSite) {  // the ray must cross the side, in the right sense
     const auto& parent = *numbers.sites[event.ray];
     const bool view_ends = contenders_[event.from].has_cone && contenders_[event.from].cone_site[event.ray_end] == event.ray;
@@ -323,7 +327,8 @@ bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
       if (event.to != first.from) waves.push_back(event.to);
     Ring ring(waves_, contenders_, ladder_);
     for (std::uint32_t other = 0; (view_ends || any_contact) && other < contenders_.size(); ++other)
-      if (std::find(waves.begin(), waves.end(), other) == waves.end() && ring.ties(node, first.from, other) == true) waves.push_back(other);
+      if (std::find(waves.begin(), waves.end(), other) == waves.end() && ring.ties(node, first.from, other) == true)
+        waves.push_back(other);
     if (!ladder_.failed()) ahead = ring.regions(node, waves);
     if (ladder_.failed()) return false;
     if (ahead.back() != first.from) {

@@ -92,7 +92,8 @@ MaybeSign Ring::turn(const Direction& a, const Direction& b) {
   const auto test = [&](const auto& numbers) { return maybe_sign(cross(vector(numbers, a), vector(numbers, b))); };
   // Mirrored waves take over from one another in the direction of the side.
   const Direction &side = is_side(a) ? a : b, &change = is_side(a) ? b : a;
-  if (is_side(side) && change.kind == Direction::Kind::overtaking && !test(ladder_.filter()) && are_mirrored(change.a, change.b, side)) {
+  if (is_side(side) && change.kind == Direction::Kind::overtaking && !test(ladder_.filter()) &&
+      are_mirrored(change.a, change.b, side)) {
     ladder_.count(predicate_at(node_->kind), robust::Stage::algebra);
     return Sign::zero;
   }

@@ -127,7 +127,7 @@ class EdgeJoiner {
   bool merge(const View& view, std::span<const std::size_t> left, std::span<const std::size_t> right, std::vector<Station>& out);
   bool insert_inner_events(const View& view, Joint& joint);
   std::optional<std::vector<std::size_t>> inner_events(const View& view, bool of_left, std::size_t from, std::size_t to,
-                                                       const Station* before, const Station* behind);
+                                                       Station* before, Station* behind);
 
   const DiagramInput& in_;
   predicates::Decisions& decisions_;

@@ -32,5 +32,14 @@ TEST(CloseVertices, DoNotStartOneAnotherAnewWithoutEnd) {
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) EXPECT_LT(solution.distance(v), 10);
 }
 
+TEST(CloseVertices, CellsOfTwoSourcesInOneFacetHaveAnArea) {
+  // Doubles cannot construct the points of their bisector.
+  const Mesh mesh(test::MeshArrays{{{6, 53, 0}, {7, 53, 0}, {7, 54, 0}, {6, 54, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+  const std::vector<Source> sources = {in_face(mesh, 0, {0.5, 0, 0.5}, 0), in_face(mesh, 0, {0.5 - 0x1p-50, 0x1p-50, 0.5}, 0)};
+  const auto solution = solve(mesh, sources);
+  ASSERT_TRUE(test::is_certified(solution));
+  for (const Cell& cell : solution.diagram().cells) EXPECT_NEAR(cell.area, 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace gvd::kernel

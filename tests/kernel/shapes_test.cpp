@@ -125,6 +125,43 @@ TEST(Shapes, WeightedTripleWithTwoVertices) {
   EXPECT_NEAR(total_area(d), 400, 1e-11);
 }
 
+TEST(Shapes, SummitAgainstItsSurroundings) {
+  // A pyramid with eight sides, one source on its top and one at each corner of its foot: rings of edges and vertices round the
+  // top.
+  const auto arrays = test::cone(8, 4, 3);
+  const Mesh mesh(arrays);
+  std::vector<Source> sources;
+  for (VertexId v = 0; v <= 8; ++v) sources.push_back(at_vertex(mesh, v));
+  const auto solution = solve(mesh, sources);
+  ASSERT_TRUE(test::is_certified(solution));
+  const Diagram& d = solution.diagram();
+  EXPECT_EQ(d.cells[0].neighbours.size(), 8u);
+  EXPECT_EQ(d.vertices.size(), 8u);
+}
+
+TEST(Shapes, ArcsAlongAnEdgeHaveTheImagesThatAreNearestThere) {
+  // The side of a box and parts of two others. The edge from (5, 0, 0) to (5, 1, 1) halves the way between source 1 and the image
+  // of source 0 over the top, which takes over from that over the front in the middle of the edge: found by fuzzing.
+  const Mesh mesh(test::MeshArrays{{{3, 1, 1}, {4, 0, 1}, {4, 1, 1}, {5, 0, 0}, {5, 1, 1}, {5, 0, 1}, {5, 2, 0}, {5, 2, 1}},
+                                   {{1, 2, 0}, {3, 6, 4}, {3, 4, 5}, {3, 5, 1}, {1, 5, 2}, {5, 4, 2}, {6, 7, 4}, {2, 4, 7}}});
+  const auto solution = solve(mesh, {at_vertex(mesh, 1), at_vertex(mesh, 6)});
+  ASSERT_TRUE(test::is_certified(solution));
+  const Diagram& d = solution.diagram();
+  std::size_t along_edge = 0;
+  for (const Arc& arc : d.arcs) {
+    if (!arc.along_edge) continue;
+    ++along_edge;
+    for (const std::uint32_t node : arc.node) {
+      const auto distance = [&](std::size_t i) {
+        return std::hypot(d.points[node].frame[0].value - arc.image[i][0].value,
+                          d.points[node].frame[1].value - arc.image[i][1].value);
+      };
+      EXPECT_NEAR(distance(0), distance(1), 1e-12);
+    }
+  }
+  EXPECT_EQ(along_edge, 1u);
+}
+
 TEST(Shapes, EdgeEndsAtARelayingCorner) {
   // Two arms of a corridor of width 2 that meet at a right angle; one source in each, 3 from the inner corner (2, 2) along its
   // walls. They are separated by the diagonal, from the inner corner to the outer one.

@@ -71,6 +71,46 @@ TEST(TiedInputs, OneSquareClass) {
   }
 }
 
+TEST(TiedInputs, SeveralSquareClasses) {
+  Random random(92);
+  for (std::uint32_t round = 0; round < 24; ++round) {
+    const std::uint32_t a = random.below(3), b = 1 + random.below(3);
+    const auto height = [&](std::uint32_t x, std::uint32_t y) { return static_cast<double>((x / 2 * a + y / 3 * b) % 3); };
+    const Mesh mesh(round % 2 == 0 ? test::grid(4 + a, 4 + b, height, static_cast<test::Diagonal>(random.below(3)))
+                                   : test::roof(2 * (1 + a), 2 * b, 4, 4));
+    expect_right(mesh, random_vertices(mesh, random, round % 3 == 0), "round " + std::to_string(round));
+  }
+}
+
+TEST(TiedInputs, MirroredTerrain) {
+  // Every point of the line x = 4 is as far from the one source as from the other.
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::vector<double> height(5 * 9);
+    for (double& z : height) z = random.below(3);
+    const auto mirrored = [&](std::uint32_t x, std::uint32_t y) { return height[y * 5 + std::min(x, 8 - x)]; };
+    auto arrays = test::grid(8, 8, mirrored, test::Diagonal::rising);
+    for (std::uint32_t y = 0; y < 8; ++y)
+      for (std::uint32_t x = 4; x < 8; ++x) {  // the diagonals, too
+        const std::uint32_t v = y * 9 + x, f = 2 * (y * 8 + x);
+        arrays.faces[f] = {v, v + 1, v + 9};
+        arrays.faces[f + 1] = {v + 1, v + 10, v + 9};
+      }
+    const Mesh mesh(arrays);
+    const std::uint32_t row = 9 * random.below(9), column = random.below(3);
+    const std::vector<Source> sources = {test::at_vertex(mesh, row + column), test::at_vertex(mesh, row + 8 - column)};
+    const auto solution = solve(mesh, sources);
+    EXPECT_TRUE(test::is_certified(solution));
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+      if (v % 9 == 4) {
+        EXPECT_EQ(solution.nearest(v).size(), 2u) << v;
+      }
+      EXPECT_EQ(solution.distance(v), solution.distance(v / 9 * 9 + 8 - v % 9));
+    }
+  }
+}
+
 TEST(TiedInputs, CubeWithSourcesInAllCorners) {
   for (const std::uint32_t n : {1u, 2u, 3u, 10u}) {
     SCOPED_TRACE(n);

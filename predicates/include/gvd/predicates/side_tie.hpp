@@ -30,8 +30,8 @@ struct SideTie {
   NT t;  ///< parameter along the side; it may lie outside [0, 1]
 };
 
-/// E (|a|^2 - s^2) for the wave `to` and the image of `from` mirrored in the side; zero if and only if the waves tie along the whole line (mirror
-/// images of equal weights) or touch in one point of it without crossing, or never.
+/// E (|a|^2 - s^2) for the wave `to` and the image of `from` mirrored in the side; zero if and only if the waves tie along the
+/// whole line (mirror images of equal weights) or touch in one point of it without crossing, or never.
 template <class NT>
 NT mirrored_gap(const SideLine<NT>& side, const Site<NT>& from, const Site<NT>& to, bool same_weight) {
   const PlanePoint<NT> a = to.image - from.image;
@@ -40,10 +40,10 @@ NT mirrored_gap(const SideLine<NT>& side, const Site<NT>& from, const Site<NT>& 
   return side.square * square_gap + ((k + turn) * k).scaled(2);
 }
 
-/// Where, going along the line of the side, wave `to` overtakes wave `from` (cones aside): the zero of d_to - d_from where it falls.
-/// It is unique: with X = t minus the foot of `from`'s image, rho = d_from - weight_from, alpha = direction.(to - from),
-/// s = weight_to - weight_from and E = |direction|^2, the tie is alpha X - s rho = c, rho^2 = E X^2 + h^2, and the derivative of d_to - d_from
-/// has the sign of E s X - alpha rho = -+ w, where w^2 = gap (E gap + 4 k_to k_from) / 4 has no cancellation but in the gaps
+/// Where, going along the line of the side, wave `to` overtakes wave `from` (cones aside): the zero of d_to - d_from where it
+/// falls. It is unique: with X = t minus the foot of `from`'s image, rho = d_from - weight_from, alpha = direction.(to - from), s =
+/// weight_to - weight_from and E = |direction|^2, the tie is alpha X - s rho = c, rho^2 = E X^2 + h^2, and the derivative of d_to -
+/// d_from has the sign of E s X - alpha rho = -+ w, where w^2 = gap (E gap + 4 k_to k_from) / 4 has no cancellation but in the gaps
 /// (k = E times the signed distance to the line). `same_weight`: s is zero by identity.
 /// A contact without crossing gives `impossible`, and so do waves that tie along the whole line.
 template <class NT>
@@ -56,8 +56,7 @@ SideTie<NT> overtaking(const SideLine<NT>& side, const Site<NT>& from, const Sit
   if (same_weight) {  // a line, met at alpha X = c
     conditions.require_positive(maybe_sign(alpha));
     tie.existence = conditions.result();
-    if (tie.existence == Existence::proved)
-      tie.t = foot + (squared_norm(a).scaled(-1) + turn * k / side.square) / alpha;
+    if (tie.existence == Existence::proved) tie.t = foot + (squared_norm(a).scaled(-1) + turn * k / side.square) / alpha;
     return tie;
   }
   const NT s = to.weight - from.weight;
@@ -91,8 +90,8 @@ SideTie<NT> overtaking(const SideLine<NT>& side, const Site<NT>& from, const Sit
   return tie;
 }
 
-/// Where the line of the side meets the ray from `image` through `vertex`. Pre: the ray is known to cross the line beyond the vertex, or not to
-/// meet 0 <= t <= 1 at all.
+/// Where the line of the side meets the ray from `image` through `vertex`. Pre: the ray is known to cross the line beyond the
+/// vertex, or not to meet 0 <= t <= 1 at all.
 template <class NT>
 NT ray_meeting(const SideLine<NT>& side, const PlanePoint<NT>& image, const PlanePoint<NT>& vertex) {
   const PlanePoint<NT> ray = vertex - image;
