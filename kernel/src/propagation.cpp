@@ -38,7 +38,6 @@ Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& ki
   field_.distance.assign(n, infinity);
   field_.error.assign(n, 0);
   waiting_.resize(m);
-  queued_.assign(m, 0);
   sights_.resize(m);
   upper_.assign(n, infinity);
   settled_.assign(n, 0);
@@ -172,24 +171,33 @@ void Propagation::emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow) {
   const HalfedgeId target = mesh_.twin(opposite);
   if (target == kNone) return;
   const Frame& frame = frames_[opposite];
-  const std::uint32_t w = new_wave();
+  make_room(1);
+  const std::uint32_t w = free_wave_;
   Wave& wave = waves_[w];
+  free_wave_ = wave.next;
+  --free_waves_;
+  wave = {};
   wave.image = predicates::apex_from_behind(frame);
-  wave.cone0 = {0, 0};
   wave.cone1 = {1, 0};
-  wave.begin = 0;
   wave.end = 1;
   wave.weight = emitted_weight_[v];
   wave.weight_error = rounded_up(emitted_error_[v]);
   wave.image_error = rounded_up(2 * kStepError * (norm1(wave.image.x, wave.image.y) + 1) * frame.length);
-  wave.begin_slack = wave.end_slack = 0;
-  wave.begin_trimmed = wave.end_trimmed = false;
-  wave.begin_turns = wave.end_turns = 0;
   wave.cone0_at_origin = wave.cone1_at_target = true;
   if (shadow != nullptr && cut_at_shadow(*shadow, outgoing, wave)) cut_at_shadow_[v] = 1;
-  wave.window = new_window(kNone, target, v, false);
-  emitted_[outgoing] = wave.window;
-  append(target, w);
+  wave.root = v;
+  wave.next = kNone;
+  wave.window = emitted_[outgoing] = static_cast<WindowId>(field_.windows.size());
+  field_.windows.push_back({kNone, target, v, field_.first_window[target]});
+  field_.first_window[target] = wave.window;
+  List& list = waiting_[target];
+  if (list.first == kNone) {
+    list.first = w;
+  } else {
+    waves_[list.last].next = w;
+  }
+  list.last = w;
+  ++list.size;
   push(target);
 }
 
@@ -225,48 +233,31 @@ bool Propagation::cut_at_shadow(const Shadow& shadow, HalfedgeId outgoing, Wave&
 
 void Propagation::push_lists_at(VertexId v) {
   mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
-    // The face between h and prev(h): its two sides at v in both directions, and the side opposite v, inwards and outwards.
-    const HalfedgeId opposite = Mesh::next(h), back = Mesh::prev(h);
+    // The face between h and prev(h): its two sides at v, and the side opposite v, inwards and outwards.
+    const HalfedgeId opposite = Mesh::next(h);
     push(h);
-    push(back);
+    push(Mesh::prev(h));
     push(opposite);
-    if (mesh_.twin(h) != kNone) push(mesh_.twin(h));
     const HalfedgeId outwards = mesh_.twin(opposite);
     if (outwards != kNone && field_.distance[mesh_.apex(outwards)] < std::numeric_limits<double>::infinity()) push(outwards);
   });
 }
 
 void Propagation::push(HalfedgeId h) {
-  if (queued_[h] != 0 || waiting_[h].first == kNone) return;
-  queued_[h] = 1;
+  List& list = waiting_[h];
+  if (list.queued || list.first == kNone) return;
+  list.queued = true;
   fifo_.push_back(h);
 }
 
 void Propagation::drain() {
   while (fifo_head_ < fifo_.size()) {
     const HalfedgeId h = fifo_[fifo_head_++];
-    queued_[h] = 0;
+    waiting_[h].queued = false;
     cross_face(h);
   }
   fifo_.clear();
   fifo_head_ = 0;
-}
-
-Propagation::Sight Propagation::locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame) {
-  const double wx = frame.u - wave.image.x, wy = frame.y - wave.image.y;
-  const double x0 = wave.cone0.x - wave.image.x, y0 = wave.cone0.y - wave.image.y;
-  const double x1 = wave.cone1.x - wave.image.x, y1 = wave.cone1.y - wave.image.y;
-  const double side0 = x0 * wy - y0 * wx, side1 = x1 * wy - y1 * wx;
-  const double disc = wave.image_error / frame.length + kFrameError * norm1(frame.u, frame.y);
-  const double size = norm1(wx, wy) + 2 * disc, size0 = norm1(x0, y0) + 2 * disc, size1 = norm1(x1, y1) + 2 * disc;
-  const double bound0 = 2.125 * disc * (size + size0) + kOrientationError * size * size0;
-  const double bound1 = 2.125 * disc * (size + size1) + kOrientationError * size * size1;
-  ++filtered_orientations_;
-  if (side0 > bound0) return Sight::beyond_0;
-  if (side1 < -bound1) return Sight::beyond_1;
-  if (side0 < -bound0 && side1 > bound1) return Sight::inside;
-  --filtered_orientations_;
-  return decide_apex(wave, h);
 }
 
 namespace {
@@ -325,226 +316,15 @@ Propagation::Sight Propagation::decide_apex(const Wave& wave, HalfedgeId h) {
   return Sight::inside;
 }
 
-void Propagation::trim_list(HalfedgeId h) {
-  list_.clear();
-  kept_.clear();
-  const auto recycle = [&](std::uint32_t w) {
-    waves_[w].next = free_wave_;
-    free_wave_ = w;
-  };
-  for (std::uint32_t w = waiting_[h].first; w != kNone;) {
-    const std::uint32_t next = waves_[w].next;
-    if (field_.restarted && waves_[w].weight != emitted_weight_[field_.windows[waves_[w].window].root]) {
-      recycle(w);
-    } else {
-      list_.push_back(w);
-    }
-    w = next;
-  }
-  waiting_[h] = {};
-  for (std::size_t i = 1; i < list_.size(); ++i) {  // nearly sorted and short
-    const std::uint32_t w = list_[i];
-    std::size_t k = i;
-    for (; k > 0 && waves_[list_[k - 1]].begin > waves_[w].begin; --k) list_[k] = list_[k - 1];
-    list_[k] = w;
-  }
-  const double length = frames_[h].length;
-  for (const std::uint32_t w : list_) {
-    bool keep = true;
-    while (!kept_.empty()) {
-      const Trim t = trim(waves_[kept_.back()], waves_[w], length);
-      if (t == Trim::drop_second) keep = false;
-      if (t != Trim::drop_first) break;
-      field_.windows[waves_[kept_.back()].window].packed |= WindowRecord::kDominated;
-      recycle(kept_.back());
-      kept_.pop_back();
-    }
-    if (keep) {
-      kept_.push_back(w);
-    } else {
-      field_.windows[waves_[w].window].packed |= WindowRecord::kDominated;
-      recycle(w);
-    }
-  }
-}
-
-void Propagation::cross_face(HalfedgeId h) {
-  const Frame& frame = frames_[h];
-  const HalfedgeId left = mesh_.twin(Mesh::prev(h)), right = mesh_.twin(Mesh::next(h));
-  const VertexId apex = mesh_.apex(h);
-  ApexSight& sight = sights_[h];
-  crossings_.clear();
-  trim_list(h);
-  for (const std::uint32_t w : kept_) {
-    const Wave& wave = waves_[w];
-    ++field_.windows_propagated;
-    const double dx = wave.image.x - frame.u, dy = wave.image.y - frame.y;
-    const double d = wave.weight + frame.length * std::sqrt(dx * dx + dy * dy);
-    const Sight where = locate_apex(wave, h, frame);
-    crossings_.push_back({w, where, d});
-    if (where == Sight::beyond_0 || where == Sight::beyond_1) continue;
-    const double error = (wave.image_error + wave.weight_error) + kDistanceError * d;
-    if (d + error < sight.upper && dy < 0) {
-      const double t = wave.image.y / dy;  // image -> apex crosses the side at this fraction: dy < 0
-      const double x = wave.image.x - dx * t;
-      const double disc = wave.image_error / frame.length + kFrameError * norm1(frame.u, frame.y);
-      const double slack = 4 * disc * (1 + norm1(dx, dy) / -dy);
-      sight = {d + error, x - slack, x + slack};
-    }
-    relax(apex, {wave.window, field_.windows[wave.window].root, kNone, d, error, wave.image});  // may add waves: last use of `wave`
-  }
-  for (const Crossing& c : crossings_) {
-    const Wave& wave = waves_[c.wave];
-    const bool longer = c.apex_distance * (1 - kDistanceError) - (wave.image_error + wave.weight_error) > sight.upper;
-    const double begin = wave.begin, end = wave.end;
-    const Sight where = c.sight;
-    if (left != kNone && where != Sight::beyond_0 && where != Sight::on_ray_0) {
-      if (longer && begin >= sight.high) {
-        ++filtered_prunings_;
-      } else {
-        make_child<true>(c.wave, where, h, left);
-      }
-    }
-    if (right != kNone && where != Sight::beyond_1 && where != Sight::on_ray_1) {
-      if (longer && end <= sight.low) {
-        ++filtered_prunings_;
-      } else {
-        make_child<false>(c.wave, where, h, right);
-      }
-    }
-  }
-  for (const std::uint32_t w : kept_) {
-    waves_[w].next = free_wave_;
-    free_wave_ = w;
-  }
-  for (const HalfedgeId target : {left, right})
-    if (target != kNone && (settled_[mesh_.origin(target)] != 0 || settled_[mesh_.target(target)] != 0)) push(target);
-}
-
-template <bool kLeft>
-void Propagation::make_child(std::uint32_t parent, Sight sight, HalfedgeId h, HalfedgeId target) {
-  const Wave& wave = waves_[parent];
-  const Frame& side = frames_[kLeft ? Mesh::prev(h) : Mesh::next(h)];
-  const auto cross = [&](const Image& z) { return kLeft ? predicates::cross_left(z, side) : predicates::cross_right(z, side); };
-  const bool at_apex = kLeft ? sight == Sight::inside || sight == Sight::on_ray_1 : sight == Sight::inside || sight == Sight::on_ray_0;
-  const double length = side.length, parent_length = frames_[h].length;
-  Wave child;
-  // A shortest path crosses no edge twice: a window that has come once round a vertex is done.
-  child.begin_turns = kLeft ? static_cast<std::uint16_t>(wave.begin_turns + 1) : std::uint16_t{0};
-  child.end_turns = kLeft ? std::uint16_t{0} : static_cast<std::uint16_t>(wave.end_turns + 1);
-  if ((kLeft ? child.begin_turns : child.end_turns) >= degree_[kLeft ? mesh_.origin(target) : mesh_.target(target)]) return;
-  child.image = cross(wave.image);
-  const double reach = (norm1(wave.image.x, wave.image.y) + 1) * parent_length + (norm1(child.image.x, child.image.y) + 1) * length;
-  const double image_error = wave.image_error + kStepError * reach;
-  const double disc = image_error / length;
-  child.begin = 0;
-  child.end = 1;
-  child.begin_slack = child.end_slack = 0;
-  child.begin_trimmed = child.end_trimmed = false;
-  child.cone0_at_origin = kLeft ? wave.cone0_at_origin : at_apex;
-  child.cone1_at_target = kLeft ? at_apex : wave.cone1_at_target;
-  if (child.cone0_at_origin) {
-    child.cone0 = {0, 0};
-  } else {
-    child.cone0 = cross(wave.cone0);
-    if (!wave.begin_trimmed) {
-      const predicates::Landing l = predicates::land(child.image, child.cone0, disc);
-      child.begin = std::max(0.0, l.at - l.margin);
-      child.begin_slack = rounded_up(2 * l.margin);
-    }
-  }
-  if (child.cone1_at_target) {
-    child.cone1 = {1, 0};
-  } else {
-    child.cone1 = cross(wave.cone1);
-    if (!wave.end_trimmed) {
-      const predicates::Landing l = predicates::land(child.image, child.cone1, disc);
-      child.end = std::min(1.0, l.at + l.margin);
-      child.end_slack = rounded_up(2 * l.margin);
-    }
-  }
-  // Of the ray through a point of the parent's side; no point of the line beyond it is seen.
-  const auto landing_of = [&](double x) {
-    return x >= 0 && x <= 1 ? predicates::land(child.image, cross({x, 0}), disc) : predicates::kNoLanding;
-  };
-  if (wave.begin_trimmed) {
-    const predicates::Landing l = landing_of(wave.begin);
-    const double begin = l.at - l.margin, seen_from = wave.begin + wave.begin_slack;
-    if (begin > child.begin) {
-      child.begin = begin;
-      child.begin_trimmed = true;
-    }
-    if (child.begin_trimmed || !child.cone0_at_origin) {
-      const predicates::Landing seen = wave.begin_slack == 0 ? l : landing_of(seen_from);
-      child.begin_slack = rounded_up(std::max(0.0, seen.at + seen.margin - child.begin));
-    }
-  }
-  if (wave.end_trimmed) {
-    const predicates::Landing l = landing_of(wave.end);
-    const double end = l.at + l.margin, seen_to = wave.end - wave.end_slack;
-    if (end < child.end) {
-      child.end = end;
-      child.end_trimmed = true;
-    }
-    if (child.end_trimmed || !child.cone1_at_target) {
-      const predicates::Landing seen = wave.end_slack == 0 ? l : landing_of(seen_to);
-      child.end_slack = rounded_up(std::max(0.0, child.end - seen.at + seen.margin));
-    }
-  }
-  if (child.begin > child.end) {
-    ++filtered_prunings_;
-    return;
-  }
-  // Xin and Wang's filter: a vertex of the face from which every point of the child is certainly nearer.
-  const double y2 = child.image.y * child.image.y;
-  const double to_begin = child.image.x - child.begin, to_end = child.image.x - child.end;
-  const double at_begin = wave.weight + length * std::sqrt(to_begin * to_begin + y2);
-  const double at_end = wave.weight + length * std::sqrt(to_end * to_end + y2);
-  const double error = image_error + wave.weight_error;
-  const double begin_low = at_begin * (1 - kDistanceError) - error, end_low = at_end * (1 - kDistanceError) - error;
-  const VertexId origin = mesh_.origin(target), end = mesh_.target(target), third = kLeft ? mesh_.target(h) : mesh_.origin(h);
-  const double third_x = side.v - (kLeft ? child.begin : child.end);
-  const double from_third = upper_[third] + length * std::sqrt(third_x * third_x + side.y * side.y);
-  if (upper_[origin] + child.end * length < end_low || upper_[end] + (1 - child.begin) * length < begin_low ||
-      from_third * (1 + kDistanceError) < (kLeft ? begin_low : end_low)) {
-    ++filtered_prunings_;
-    return;
-  }
-  child.weight = wave.weight;
-  child.weight_error = wave.weight_error;
-  child.image_error = rounded_up(image_error);
-  child.window = new_window(wave.window, target, field_.windows[wave.window].root, at_apex);
-  const std::uint32_t w = new_wave();
-  waves_[w] = child;
-  append(target, w);
-}
-
-std::uint32_t Propagation::new_wave() {
-  if (free_wave_ == kNone) {
-    waves_.emplace_back();
-    return static_cast<std::uint32_t>(waves_.size() - 1);
-  }
-  const std::uint32_t w = free_wave_;
-  free_wave_ = waves_[w].next;
-  return w;
-}
-
-WindowId Propagation::new_window(WindowId parent, HalfedgeId h, VertexId root, bool apex_in_cone) {
-  const auto id = static_cast<WindowId>(field_.windows.size());
-  field_.windows.push_back({parent, h | (apex_in_cone ? WindowRecord::kApexInCone : 0u), root, field_.first_window[h]});
-  field_.first_window[h] = id;
-  return id;
-}
-
-void Propagation::append(HalfedgeId h, std::uint32_t wave) {
-  waves_[wave].next = kNone;
-  List& list = waiting_[h];
-  if (list.first == kNone) {
-    list.first = list.last = wave;
-  } else {
-    waves_[list.last].next = wave;
-    list.last = wave;
-  }
+/// Makes sure of so many free waves; moves the others.
+void Propagation::make_room(std::size_t waves) {
+  if (free_waves_ >= waves) return;
+  const std::size_t old = waves_.size(), more = std::max(old, waves + 64);
+  waves_.resize(old + more);
+  for (std::size_t i = old; i < old + more; ++i) waves_[i].next = static_cast<std::uint32_t>(i + 1);
+  waves_.back().next = free_wave_;
+  free_wave_ = static_cast<std::uint32_t>(old);
+  free_waves_ += more;
 }
 
 bool propagate(const Frames& frames, std::span<const WaveStart> starts, const std::vector<VertexKind>& kinds, DistanceField& field,

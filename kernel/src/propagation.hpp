@@ -4,8 +4,8 @@
 #include <limits>
 #include <queue>
 
-#include "exact_unfoldings.hpp"
 #include "gvd/kernel/distance_field.hpp"
+#include "exact_unfoldings.hpp"
 #include "shadow.hpp"
 #include "window_interval.hpp"
 
@@ -26,6 +26,7 @@ class Propagation {
     Image cone0, cone1;
     std::uint16_t begin_turns, end_turns;  // faces crossed in a row about the origin and the target of the half-edge
     WindowId window;
+    VertexId root;
     std::uint32_t next;
   };
   /// The best proved sight of the apex over a half-edge: windows beside that ray and longer cannot cross it.
@@ -34,15 +35,16 @@ class Propagation {
     double low = 0, high = 0;                                // where the ray crosses the half-edge
   };
   struct List {
-    std::uint32_t first = kNone, last = kNone;
+    std::uint32_t first = kNone, last = kNone, size = 0;
+    bool queued = false;
   };
   /// Where the apex lies: seen, or beside the cone.
   enum class Sight : std::uint8_t { inside, on_ray_0, on_ray_1, beyond_0, beyond_1 };
   struct Crossing {
-    std::uint32_t wave;
     Sight sight;
     double apex_distance;
   };
+  struct Exit;
 
   void settle(VertexId v);
   void relax(VertexId v, const Candidate& candidate);
@@ -58,13 +60,21 @@ class Propagation {
   void drain();
   void cross_face(HalfedgeId h);
   void trim_list(HalfedgeId h);
-  Sight locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame);
+  Crossing see_apex(std::uint32_t wave, HalfedgeId h);
+  Sight locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame, double disc);
   Sight decide_apex(const Wave& wave, HalfedgeId h);
+  Exit exit_over(HalfedgeId side, VertexId third, bool left) const;
   template <bool kLeft>
-  void make_child(std::uint32_t wave, Sight sight, HalfedgeId h, HalfedgeId target);
-  std::uint32_t new_wave();
-  WindowId new_window(WindowId parent, HalfedgeId h, VertexId root, bool apex_in_cone);
-  void append(HalfedgeId h, std::uint32_t wave);
+  void make_child(const Wave& wave, bool at_apex, double parent_reach, Exit& exit);
+  template <bool kLeft>
+  static bool is_certainly_longer(const Wave& child, double weight, double error, const Exit& exit);
+  void splice(const Exit& exit);
+  void make_room(std::size_t waves);
+  void recycle(std::uint32_t wave) {
+    waves_[wave].next = free_wave_;
+    free_wave_ = wave;
+    ++free_waves_;
+  }
 
   const Mesh& mesh_;
   const Frames& all_frames_;
@@ -76,8 +86,8 @@ class Propagation {
 
   std::vector<Wave> waves_;
   std::uint32_t free_wave_ = kNone;
+  std::size_t free_waves_ = 0;
   std::vector<List> waiting_;
-  std::vector<std::uint8_t> queued_;
   std::vector<HalfedgeId> fifo_;
   std::size_t fifo_head_ = 0;
   std::vector<ApexSight> sights_;
@@ -87,9 +97,10 @@ class Propagation {
   std::vector<double> emitted_weight_, emitted_error_;  // per settled vertex: what its windows carry
   std::vector<WindowId> emitted_;             // per outgoing half-edge: the first window sent over the opposite side
   std::vector<std::uint8_t> cut_at_shadow_;   // per relay: what it sent is only what the one path to it leaves
-  std::vector<Crossing> crossings_;
   Shadow shadow_;
-  std::vector<std::uint32_t> list_, kept_;    // of the half-edge at hand
+  std::vector<std::uint32_t> list_;           // waves of the half-edge at hand: the first kept_ are left
+  std::vector<Crossing> crossings_;           // of these
+  std::size_t kept_ = 0;
   struct Entry {
     double distance;
     VertexId vertex;
