@@ -16,6 +16,34 @@ namespace {
 using robust::DoubleDouble;
 using robust::Mpfr;
 
+/// What the doubles of inserted vertices leave out of their positions.
+class InsertedPoints {
+ public:
+  explicit InsertedPoints(const Mesh& mesh) : mesh_(mesh) {
+    for (VertexId v = mesh.input_vertex_count(); v < mesh.vertex_count(); ++v) {
+      const ExactPoint exact = mesh.exact_point(v);
+      Point rest;
+      for (std::size_t i = 0; i < 3; ++i) rest[i] = mpq_class(exact[i] - robust::exact_rational(mesh.point(v)[i])).get_d();
+      rest_.push_back(rest);
+    }
+  }
+  /// b - a, each coordinate to u (1 + 2^-12) of itself. False if it might be off by more (docs/error-bounds.md#frames).
+  bool difference(VertexId a, VertexId b, Point& result) const {
+    const Point p = rest(a), q = rest(b);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const DoubleDouble d = robust::two_sum(mesh_.point(b)[i], -mesh_.point(a)[i]);
+      result[i] = d.hi + (d.lo + (q[i] - p[i]));
+      if (!(8 * (std::fabs(d.lo) + std::fabs(p[i]) + std::fabs(q[i])) <= 0x1p-12 * std::fabs(result[i]))) return false;
+    }
+    return true;
+  }
+
+ private:
+  Point rest(VertexId v) const { return mesh_.is_representable(v) ? Point{0, 0, 0} : rest_[v - mesh_.input_vertex_count()]; }
+  const Mesh& mesh_;
+  std::vector<Point> rest_;
+};
+
 mpq_class scaled(const mpq_class& x, int k) { return x * robust::power_of_two(k); }
 
 }  // namespace
@@ -54,17 +82,18 @@ Frames::Frames(const Mesh& mesh) : mesh_(mesh) {
   scale_ = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
   const double factor_a = std::ldexp(1.0, -scale_ / 2), factor_b = std::ldexp(1.0, -scale_ - (-scale_ / 2));
   double_.resize(mesh.halfedge_count());
+  const InsertedPoints inserted(mesh);
   for (FaceId f = 0; f < mesh.face_count(); ++f) {
     std::array<std::array<double, 3>, 3> sides;
-    bool plain = true;
-    for (unsigned k = 0; k < 3; ++k) plain = plain && mesh.is_representable(mesh.origin(3 * f + k));
-    if (plain) {
-      for (unsigned k = 0; k < 3; ++k) {
-        const Point &p = mesh.point(mesh.origin(3 * f + k)), &q = mesh.point(mesh.target(3 * f + k));
-        for (std::size_t i = 0; i < 3; ++i) sides[k][i] = (q[i] - p[i]) * factor_a * factor_b;
+    for (unsigned k = 0; k < 3; ++k) {
+      const VertexId a = mesh.origin(3 * f + k), b = mesh.target(3 * f + k);
+      const Point &p = mesh.point(a), &q = mesh.point(b);
+      Point difference{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+      if ((mesh.is_representable(a) && mesh.is_representable(b)) || inserted.difference(a, b, difference)) {
+        for (std::size_t i = 0; i < 3; ++i) sides[k][i] = difference[i] * factor_a * factor_b;
+      } else {
+        sides[k] = side<double>(f, static_cast<int>(k), 53);
       }
-    } else {
-      for (unsigned k = 0; k < 3; ++k) sides[k] = side<double>(f, static_cast<int>(k), 53);
     }
     const auto frames = predicates::face_frames(sides[0], sides[1], sides[2]);
     for (std::size_t k = 0; k < 3; ++k) {
