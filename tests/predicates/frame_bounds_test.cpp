@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "gvd/kernel/frames.hpp"
+#include "gvd/kernel/source.hpp"
+#include "gvd/kernel/surface_point.hpp"
 #include "gvd/kernel/unfolding.hpp"
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/predicates/strip.hpp"
 #include "gvd/robust/gmp.hpp"
+#include "gvd/robust/rational.hpp"
 #include "support/meshes.hpp"
 
 namespace gvd::test {
@@ -48,7 +51,7 @@ constexpr double kHigherOrders = 1 + 0x1p-40;
 
 // The derivations of docs/error-bounds.md, against the literals.
 TEST(FrameBounds, LiteralsFollowFromTheirDerivations) {
-  const Derived d = derive({1, 1, 1, 1, 1});
+  const Derived d = derive({1 + 0x1p-12, 1, 1, 1, 1});  // sides at inserted vertices
   EXPECT_LE(d.apex * kHigherOrders * kU, predicates::kFrameError);
   const double left = d.apex + d.turn, right = d.apex + d.turn + 2;  // two subtractions from 1
   EXPECT_LE(std::max(left, right) * kHigherOrders * kU, predicates::kStepError);
@@ -67,7 +70,7 @@ TEST(FrameBounds, OneConstantServesAllNumberTypes) {
     return std::max(d.apex + d.turn + 2 * o.add, d.length) * kHigherOrders;
   };
   EXPECT_EQ(predicates::unit<double>(0), kU);
-  EXPECT_LE(needed({1, 1, 1, 1, 1}), predicates::kUnfoldingStep);
+  EXPECT_LE(needed({1 + 0x1p-12, 1, 1, 1, 1}), predicates::kUnfoldingStep);
   const double unit = predicates::unit<DoubleDouble>(0);
   EXPECT_LE(needed({kU * kU / unit, robust::kDoubleDoubleAddError / unit, robust::kDoubleDoubleProductError / unit,
                     robust::kDoubleDoubleQuotientError / unit, robust::kDoubleDoubleRootError / unit}),
@@ -154,6 +157,26 @@ TEST(FrameBounds, FramesOfAllShapesKeepTheirBounds) {
 }
 
 // A needle whose height is lost to cancellation is within the bounds; a side that is too short is not.
+// Far from the origin, in the middle of the face and ever closer to a vertex of it, where rounded positions say little.
+TEST(FrameBounds, FramesAtInsertedVerticesKeepTheirBounds) {
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Mesh input = triangle(random);
+    mpq_class a(random.uniform()), b(random.uniform());
+    a *= robust::power_of_two(-static_cast<int>(random.below(70)));
+    b *= (1 - a) * robust::power_of_two(-static_cast<int>(random.below(70)));
+    if (a == 0 || b == 0) continue;
+    kernel::RefinedSources where;
+    const Mesh mesh = kernel::refine(input, {{kernel::point_in_face(input, 0, {1 - a - b, a, b}), 0}}, where);
+    const Frames frames(mesh);
+    if (frames.has_underflow()) continue;
+    for (HalfedgeId h = 0; h < mesh.halfedge_count(); ++h) {
+      expect_frame_within(frames(h), frames.in_mpfr(Mesh::face(h), kTruthBits)[h % 3], predicates::kFrameError, 4 * kU);
+      if (HasFatalFailure()) FAIL() << "triangle " << i << " half-edge " << h;
+    }
+  }
+}
+
 TEST(FrameBounds, OnlySidesTooShortCountAsUnderflow) {
   const auto has_underflow = [](const Point& b, const Point& c) { return Frames(Mesh({{{0, 0, 0}, b, c}, {{0, 1, 2}}})).has_underflow(); };
   EXPECT_FALSE(has_underflow({1, 0.3, 0.7}, {0.5, 0.15, std::nextafter(0.35, 1)}));
