@@ -47,6 +47,8 @@ Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& ki
   emitted_error_.assign(n, 0);
   emitted_.assign(m, kNone);
   cut_at_shadow_.assign(n, 0);
+  field_.windows.reserve(2 * m);
+  field_.candidates.reserve(2 * n);
 }
 
 bool Propagation::run(std::span<const WaveStart> starts, PropagationPoll poll, void* user) {

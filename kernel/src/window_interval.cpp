@@ -90,7 +90,7 @@ double Difference::leave_tie(double end, int sign_elsewhere) const {
 /// Narrows [left, right], at whose ends the difference has opposite signs.
 void Difference::bracket_root(double g0, double g1, double& left, double& right) const {
   double gl = g0, gr = g1;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 2; ++i) {
     const double x = left + (right - left) * (gl / (gl - gr));
     if (!(x > left && x < right)) return;
     const double width = right - left;
