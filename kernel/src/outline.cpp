@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gvd/predicates/filter_error.hpp"
+
 namespace gvd::kernel {
 namespace {
 
@@ -43,9 +45,8 @@ void OutlineWalk::find_stretches() {
         const double from = most[k], to = most[(k + 1) % 3];
         Stretch& stretch = stretches_[i][k];
         if (from < 0 && to < 0) stretch = {2, -1};
-        // Within a few roundings of the zero: the widening covers them (all terms have one sign).
-        if (from < 0 && to >= 0) stretch.low = std::max(stretch.low, from / (from - to) * (1 - 0x1p-48));
-        if (from >= 0 && to < 0) stretch.high = std::min(stretch.high, from / (from - to) * (1 + 0x1p-48));
+        if (from < 0 && to >= 0) stretch.low = std::max(stretch.low, predicates::below_zero_of(from, to));
+        if (from >= 0 && to < 0) stretch.high = std::min(stretch.high, predicates::above_zero_of(from, to));
       }
     }
   }

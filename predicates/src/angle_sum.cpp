@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "formal_angle_product.hpp"
+#include "gvd/predicates/filter_error.hpp"
 #include "gvd/robust/ball.hpp"
 #include "gvd/robust/double_double.hpp"
 #include "gvd/robust/mpfr_float.hpp"
@@ -16,8 +17,8 @@ using robust::MaybeSign;
 using robust::Sign;
 using robust::Stage;
 
-/// Sizes within which products of four numbers neither overflow nor lose more by underflow than the bound has to spare.
-constexpr double kSmallest = 1e-140, kLargest = 1e140;
+constexpr double kRescale = 0x1p467;
+static_assert(kAngleRescale == 467);
 
 /// Turns x + i y back by quarter turns until the real part is positive and at least as large as the imaginary one; returns how
 /// many. Without branches, which no processor could foresee.
@@ -127,7 +128,7 @@ void AngleSumFilter::add(const Vector& d, const Vector& e, double input_error) n
   const double c0 = d[1] * e[2] - d[2] * e[1], c1 = d[2] * e[0] - d[0] * e[2], c2 = d[0] * e[1] - d[1] * e[0];
   double y = std::sqrt(c0 * c0 + c1 * c1 + c2 * c2);
   const double size = std::abs(x) + y;
-  if (!(size > kSmallest && size < kLargest)) in_range_ = false;
+  if (!(size > kLeastAngleFactor && size < kMostAngleFactor)) in_range_ = false;
   factors_ += 1;
   input_error_ += input_error;
   const int quarters = turn_by_numbers(x, y);
@@ -136,30 +137,21 @@ void AngleSumFilter::add(const Vector& d, const Vector& e, double input_error) n
   x_ = product_x;
   const int more = turn_by_numbers(x_, y_);
   quarters_ += quarters + (more == 3 ? -1 : more);
-  if (x_ > kLargest) {
-    x_ *= 0x1p-465;
-    y_ *= 0x1p-465;
-  } else if (x_ < kSmallest) {
-    x_ *= 0x1p465;
-    y_ *= 0x1p465;
+  if (x_ > kMostAngleFactor) {
+    x_ /= kRescale;
+    y_ /= kRescale;
+  } else if (x_ < kLeastAngleFactor) {
+    x_ *= kRescale;
+    y_ *= kRescale;
   }
 }
 
-// The bound, with u = 2^-53. Each component of d and e has a relative error of u, each product of two one of 3 u (first order); so
-//   x = d.e:         5 u (|d0 e0| + |d1 e1| + |d2 e2|) <= 5 u |d||e|                            (two additions more)
-//   c = d x e:       each entry 4 u (|di ej| + |dj ei|), the vector 4 sqrt(2) u |d||e| < 5.7 u |d||e|
-//   y = |c|:         that, and 2.5 u |d||e| for three squares, two sums and the root: < 8.2 u |d||e|
-// and w = x + i y, of size |d||e|, is off by less than sqrt(5^2 + 8.2^2) u |w| < 9.7 u |w|. The complex product adds sqrt(5) u
-// (Brent, Percival and Zimmermann, Error bounds on complex floating-point multiplication, 2007): 12 u a corner. Errors of the
-// points, h = |error of d| / |d| + |error of e| / |e|, change dot and cross product each by h |d||e| (1 + h): 1.42 h |w|.
-// The total is required to be below 2^-10, so that terms of second order and the roundings of the bound itself are below 1% of it:
-// 13 u and 1.6 h. Underflow: sizes are kept in [1e-140, 1e140], where a lost 2^-1075 in a product, or its root 1e-161 in y, is far
-// below 0.01 u of the size. Turning by i is exact. By less than 2^-10 off, numbers that were brought to |arg| <= pi/4 truly have
-// |arg| < pi/2, so quarters are counted right.
-double AngleSumFilter::error_bound() const noexcept { return 13 * 0x1p-53 * factors_ + 1.6 * input_error_; }
+// docs/error-bounds.md#angle-sums. By less than kMostAngleError off, numbers that were brought to |arg| <= pi/4 truly have |arg| < pi/2, so
+// quarters are counted right.
+double AngleSumFilter::error_bound() const noexcept { return kAngleFactorError * factors_ + kAngleInputError * input_error_; }
 
 std::optional<int> AngleSumFilter::nearest_quarter_turns() const noexcept {
-  if (!in_range_ || !(error_bound() < 0x1p-10)) return std::nullopt;
+  if (!in_range_ || !(error_bound() < kMostAngleError)) return std::nullopt;
   return quarters_;
 }
 

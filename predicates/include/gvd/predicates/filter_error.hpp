@@ -17,6 +17,17 @@ inline constexpr double kOrientationError = 6 * kUnit;
 /// #propagation: relative error of one turn of a direction by the angle of a face.
 inline constexpr double kTurnError = 24 * kUnit;
 
+/// #angle-sums: what a corner may be in size, and by what power of two a product that left these bounds is brought back.
+inline constexpr double kLeastAngleFactor = 1e-140, kMostAngleFactor = 1e140;
+inline constexpr int kAngleRescale = 467;
+/// #angle-sums: relative error of the product a corner, and a unit of the errors of its points.
+inline constexpr double kAngleFactorError = 13 * kUnit, kAngleInputError = 1.6;
+inline constexpr double kMostAngleError = 0x1p-10;
+
+/// #stretches: not above, not below the zero of the linear function with these values at 0 and 1. Pre: one is negative, the other is not.
+inline double below_zero_of(double at_0, double at_1) noexcept { return at_0 / (at_0 - at_1) * (1 - 0x1p-48) - 0x1p-1070; }
+inline double above_zero_of(double at_0, double at_1) noexcept { return at_0 / (at_0 - at_1) * (1 + 0x1p-48) + 0x1p-1070; }
+
 /// #floats: a float that exceeds the error by at least 2^-21 of itself, also below the range of float. Pre: error is below 2^127.
 inline float rounded_up(double error) noexcept { return static_cast<float>(error * (1 + 0x1p-20) + 0x1p-120); }
 
