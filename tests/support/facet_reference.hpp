@@ -41,7 +41,7 @@ class FacetReference {
     for (std::size_t i = 0; i < wave_.size(); ++i) {
       wave_[i].group = i;
       for (std::size_t j = 0; j < i; ++j) {
-        const bool same = waves.sites[i].root == waves.sites[j].root && near(wave_[i].image, wave_[j].image, "1e-50");
+        const bool same = waves.sites[i].root == waves.sites[j].root && near(wave_[i].image, wave_[j].image, 50);
         if (same && wave_[i].group == i) wave_[i].group = wave_[j].group;
       }
     }
@@ -79,7 +79,7 @@ class FacetReference {
       auto& met = inside ? inside_met : side_met;
       const auto& truth = inside ? inside_ : on_side_;
       std::size_t i = 0;
-      while (i < truth.size() && !near(truth[i].at, at, "1e-25")) ++i;
+      while (i < truth.size() && !near(truth[i].at, at, 25)) ++i;
       if (i == truth.size()) return "node " + std::to_string(n) + " does not exist: " + distances(at);
       if (met[i]) return "node " + std::to_string(n) + " is there twice";
       met[i] = true;
@@ -124,7 +124,16 @@ class FacetReference {
   static Point point(const predicates::PlanePoint<kernel::FacetWaves::M>& p) { return {real(p.x), real(p.y)}; }
   static Real cross(const Point& o, const Point& a, const Point& b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
   static Real length(const Point& a, const Point& b) { return sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)); }
-  static bool near(const Point& a, const Point& b, const char* tolerance) { return length(a, b) < Real(tolerance); }
+  /// 10^-digits.
+  static const Real& tiny(int digits) {
+    static const std::vector<Real> powers = [] {
+      std::vector<Real> list{1};
+      while (list.size() < 76) list.push_back(list.back() / 10);
+      return list;
+    }();
+    return powers[static_cast<std::size_t>(digits)];
+  }
+  static bool near(const Point& a, const Point& b, int digits) { return length(a, b) < tiny(digits); }
   static std::string text(const Point& p) { return "(" + p.x.str(6) + ", " + p.y.str(6) + ")"; }
   std::string distances(const Point& p) const {
     std::string result = text(p) + ", distances";
@@ -136,7 +145,7 @@ class FacetReference {
   Real distance(std::size_t i, const Point& p) const { return wave_[i].weight + length(p, wave_[i].image); }
   bool sees(std::size_t i, const Point& p) const {
     const Wave& w = wave_[i];
-    const Real slack("1e-30");
+    const Real& slack = tiny(30);
     return !w.has_cone || (cross(w.image, w.cone[0], p) <= slack && cross(w.image, w.cone[1], p) >= -slack);
   }
   Real least(const Point& p) const {
@@ -160,16 +169,16 @@ class FacetReference {
   }
   bool strictly_inside(const Point& p) const {
     for (std::size_t k = 0; k < 3; ++k)
-      if (cross(corner_[k], corner_[(k + 1) % 3], p) <= Real("1e-25")) return false;
+      if (cross(corner_[k], corner_[(k + 1) % 3], p) <= tiny(25)) return false;
     return true;
   }
   /// A true node if the waves given are nearest at p and see it.
   void consider(const Point& p, const Real& value, const std::vector<std::size_t>& waves, std::vector<TrueNode>& nodes) const {
     for (const auto i : waves)
-      if (!sees(i, p) || abs(distance(i, p) - value) > Real("1e-30")) return;
-    if (least(p) < value - Real("1e-30")) return;
+      if (!sees(i, p) || abs(distance(i, p) - value) > tiny(30)) return;
+    if (least(p) < value - tiny(30)) return;
     for (auto& node : nodes) {
-      if (!near(node.at, p, "1e-25")) continue;
+      if (!near(node.at, p, 25)) continue;
       for (const auto i : waves) node.groups.insert(wave_[i].group);
       return;
     }
@@ -193,7 +202,7 @@ class FacetReference {
   bool has_relay(const std::set<std::size_t>& groups) const {
     for (const auto a : groups)
       for (const auto b : groups)
-        if (a != b && abs(length(wave_[a].image, wave_[b].image) - abs(wave_[a].weight - wave_[b].weight)) < Real("1e-30")) return true;
+        if (a != b && abs(length(wave_[a].image, wave_[b].image) - abs(wave_[a].weight - wave_[b].weight)) < tiny(30)) return true;
     return false;
   }
   /// The points with weight + distance equal for the three, and that value. Classical: the differences are linear in (x, y, value).
@@ -214,7 +223,7 @@ class FacetReference {
         free = f;
       }
     }
-    if (best < Real("1e-40")) return {};
+    if (best < tiny(40)) return {};
     const int p = (free + 1) % 3, q = (free + 2) % 3;
     const Real det = m[0][p] * m[1][q] - m[0][q] * m[1][p];
     std::array<Real, 3> base, slope;  // variable = base + slope * free variable
@@ -240,19 +249,19 @@ class FacetReference {
   /// a x^2 + 2 b x + c = 0; a double root within rounding counts.
   static std::vector<Real> roots(const Real& a, const Real& b, const Real& c) {
     const Real disc = b * b - a * c;
-    if (disc < -Real("1e-60") * (b * b + abs(a * c))) return {};
+    if (disc < -tiny(60) * (b * b + abs(a * c))) return {};
     const Real root = disc > 0 ? sqrt(disc) : Real(0);
     const Real far = b > 0 ? Real(-b - root) : Real(-b + root);
     std::vector<Real> result;
-    if (abs(far) > Real("1e-60")) result.push_back(c / far);
-    if (abs(a) > Real("1e-60")) result.push_back(far / a);
+    if (abs(far) > tiny(60)) result.push_back(c / far);
+    if (abs(a) > tiny(60)) result.push_back(far / a);
     return result;
   }
   std::size_t regions_round(const Point& p) const {
     std::vector<std::size_t> seen;
     for (int i = 0; i < 720; ++i) {
       const double angle = (i + 0.37) * 3.14159265358979323846 / 360;
-      seen.push_back(winner({p.x + Real("1e-20") * std::cos(angle), p.y + Real("1e-20") * std::sin(angle)}));
+      seen.push_back(winner({p.x + tiny(20) * std::cos(angle), p.y + tiny(20) * std::sin(angle)}));
     }
     std::size_t changes = 0;
     for (std::size_t i = 0; i < seen.size(); ++i) changes += seen[i] != seen[(i + 1) % seen.size()];
@@ -263,8 +272,8 @@ class FacetReference {
     const Point o = corner_[c], a = corner_[(c + 1) % 3], b = corner_[(c + 2) % 3];
     std::vector<std::size_t> result;
     for (int i = 1; i < 400; ++i) {
-      const Real s = Real(i) / 400 * Real("1e-20");
-      const Real r = Real("1e-20") - s;
+      const Real s = Real(i) / 400 * tiny(20);
+      const Real r = tiny(20) - s;
       const auto w = winner({o.x + r * (a.x - o.x) + s * (b.x - o.x), o.y + r * (a.y - o.y) + s * (b.y - o.y)});
       if (result.empty() || result.back() != w) result.push_back(w);
     }
@@ -278,7 +287,7 @@ class FacetReference {
       for (std::size_t i = 0; i < wave_.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
           for (const Real& t : side_ties(wave_[i], wave_[j], p0, p1)) {
-            if (t < Real("1e-25") || t > 1 - Real("1e-25")) continue;
+            if (t < tiny(25) || t > 1 - tiny(25)) continue;
             const Point p = along(p0, p1, t);
             if (wave_[i].group != wave_[j].group) consider(p, distance(i, p), {i, j}, nodes);
           }
@@ -287,8 +296,8 @@ class FacetReference {
       for (const auto& node : nodes) {
         std::set<std::size_t> seen;
         for (int i = 1; i < 400; ++i) {
-          const Real s = Real(i) / 400 * Real("1e-20");
-          const Real r = Real("1e-20") - s;
+          const Real s = Real(i) / 400 * tiny(20);
+          const Real r = tiny(20) - s;
           const Point ahead{node.at.x + r * (p1.x - p0.x), node.at.y + r * (p1.y - p0.y)};
           const Point behind{node.at.x - r * (p1.x - p0.x), node.at.y - r * (p1.y - p0.y)};
           seen.insert(winner(along(ahead, inner, s)));
@@ -310,7 +319,7 @@ class FacetReference {
     if (abs(lv) > abs(lt)) {  // v = (rhs - lt t) / lv
       const Real v0 = rhs / lv - a.weight, v1 = -lt / lv;
       for (const Real& t : roots(e - v1 * v1, at - v0 * v1, ax * ax + ay * ay - v0 * v0)) result.push_back(t);
-    } else if (abs(lt) > Real("1e-40")) {  // t = (rhs - lv v) / lt
+    } else if (abs(lt) > tiny(40)) {  // t = (rhs - lv v) / lt
       const Real t0 = rhs / lt, t1 = -lv / lt;
       const Real b0 = e * t0 * t1 + at * t1 + a.weight, c0 = e * t0 * t0 + 2 * at * t0 + ax * ax + ay * ay - a.weight * a.weight;
       for (const Real& v : roots(e * t1 * t1 - 1, b0, c0)) result.push_back(t0 + t1 * v);
@@ -348,11 +357,11 @@ class FacetReference {
         p = at(low);
         if (cross(from, to, at(low + chord)) > cross(from, to, p)) return "left and right are exchanged";
       }
-      if (abs(distance(l, p) - distance(r, p)) > Real("1e-22")) return "the regions do not tie";
+      if (abs(distance(l, p) - distance(r, p)) > tiny(22)) return "the regions do not tie";
       if (!group_sees(l, p) || !group_sees(r, p)) return "a region is not seen";
-      if (least(p) < distance(l, p) - Real("1e-22")) return "another wave is nearer";
+      if (least(p) < distance(l, p) - tiny(22)) return "another wave is nearer";
       // a step to either side of the arc
-      const Real step = chord * Real("1e-12");
+      const Real step = chord * tiny(12);
       const Point n{-(to.y - from.y) / chord * step, (to.x - from.x) / chord * step};
       const Point left{p.x + n.x, p.y + n.y}, right{p.x - n.x, p.y - n.y};
       if (winner(left) != wave_[l].group || winner(right) != wave_[r].group) return "other regions beside it";
@@ -363,7 +372,7 @@ class FacetReference {
     for (std::size_t j = 0; j < wave_.size(); ++j)
       if (wave_[j].group == wave_[i].group) {
         const Wave& w = wave_[j];
-        const Real slack("1e-20");
+        const Real& slack = tiny(20);
         if (!w.has_cone || (cross(w.image, w.cone[0], p) <= slack && cross(w.image, w.cone[1], p) >= -slack)) return true;
       }
     return false;
@@ -382,7 +391,7 @@ class FacetReference {
       reached[piece.side] = end;
       const Point p0 = corner_[piece.side], p1 = corner_[(piece.side + 1) % 3], in = corner_[(piece.side + 2) % 3];
       for (const double share : {0.01, 0.5, 0.99}) {
-        const Point p = along(along(p0, p1, begin + share * (end - begin)), in, Real("1e-24"));
+        const Point p = along(along(p0, p1, begin + share * (end - begin)), in, tiny(24));
         if (winner(p) != wave_[piece.site].group) return "another region along side " + std::to_string(piece.side);
       }
     }
