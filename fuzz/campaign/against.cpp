@@ -84,8 +84,10 @@ std::vector<std::optional<Told>> read_answer(const std::string& file, VertexId v
   return told;
 }
 
-double relative_error(double told, double truth) {
-  return told == truth ? 0 : std::fabs(told - truth) / std::max(std::fabs(truth), std::numeric_limits<double>::min());
+/// Next to a source a relative error means nothing: it is measured against at least this part of the longest edge.
+constexpr double kLeastSize = 0x1p-20;
+double relative_error(double told, double truth, double longest_edge) {
+  return told == truth ? 0 : std::fabs(told - truth) / std::max(std::fabs(truth), kLeastSize * longest_edge);
 }
 
 /// Keeps the worst.
@@ -95,15 +97,14 @@ void note(Judgement& j, Failure failure, std::string what) {
   j.what = std::move(what);
 }
 
-void judge_vertex(Trial& trial, VertexId v, const std::optional<Told>& told, double tolerance, double scale, Judgement& j) {
+void judge_vertex(Trial& trial, VertexId v, const std::optional<Told>& told, double tolerance, double longest, Judgement& j) {
   const double truth = trial.field().distance(v);
   if (!told) return note(j, Failure::no_output, fmt::format("no distance for vertex {}", v));
   if (std::isnan(told->distance)) return note(j, Failure::not_a_number, fmt::format("vertex {} is not a number", v));
   if (std::isinf(told->distance) != std::isinf(truth))
     return note(j, Failure::reachability, fmt::format("vertex {}: told {}, truth {}", v, told->distance, truth));
   if (std::isinf(truth)) return;
-  // Next to a source the error is measured against the size of the mesh: a relative one means nothing there.
-  const double error = std::min(relative_error(told->distance, truth), std::fabs(told->distance - truth) / (scale * tolerance));
+  const double error = relative_error(told->distance, truth, longest);
   j.worst = std::max(j.worst, error);
   if (error > tolerance)
     return note(j, Failure::wrong_distance, fmt::format("vertex {}: told {}, truth {}", v, told->distance, truth));
@@ -111,12 +112,12 @@ void judge_vertex(Trial& trial, VertexId v, const std::optional<Told>& told, dou
   if (*told->source >= trial.sources().size())
     return note(j, Failure::wrong_label, fmt::format("vertex {}: there is no source {}", v, *told->source));
   const double of_label = trial.alone(*told->source).distance(v);
-  if (relative_error(of_label, truth) > tolerance && of_label - truth > scale * tolerance)
+  if (relative_error(of_label, truth, longest) > tolerance)
     note(j, Failure::wrong_label,
          fmt::format("vertex {}: labelled {}, which is at {}; the nearest is at {}", v, *told->source, of_label, truth));
 }
 
-double extent(const kernel::Mesh& mesh) {
+double longest_edge(const kernel::Mesh& mesh) {
   double most = 0;
   for (kernel::HalfedgeId h = 0; h < mesh.halfedge_count(); ++h) {
     const auto &a = mesh.point(mesh.origin(h)), &b = mesh.point(mesh.target(h));
@@ -139,10 +140,10 @@ Judgement judge_in(const Workplace& place, const Case& c, const AgainstOptions& 
   if (end.kind == ExternalEnd::Kind::failed) return note(j, Failure::refused, fmt::format("exit code {}", end.number)), j;
   Trial trial(c, 0);
   const auto told = read_answer(out, trial.mesh().vertex_count());
-  const double scale = extent(trial.mesh());
+  const double longest = longest_edge(trial.mesh());
   for (VertexId v = 0; v < trial.mesh().vertex_count(); ++v) {
     if (trial.mesh().is_isolated(v)) continue;  // no part of the surface
-    judge_vertex(trial, v, told[v], options.tolerance, scale, j);
+    judge_vertex(trial, v, told[v], options.tolerance, longest, j);
   }
   return j;
 }
