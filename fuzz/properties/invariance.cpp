@@ -108,22 +108,24 @@ std::string canonical_text(const kernel::Solution& solution, const Altered& alte
   return canonical(diagram, {altered.source});
 }
 
-/// A closed edge starts in its lexicographically least point, which depends on the order of the axes: its points as a set.
+/// A closed edge starts in its lexicographically least point, which depends on the order of the axes; so does its place among the
+/// edges. Its points become a set, and all lines are sorted.
 std::string without_starts(const std::string& text) {
-  std::istringstream lines(text);
-  std::string result;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.find("closed") == std::string::npos) {
-      result += line + "\n";
-      continue;
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.find("closed") != std::string::npos) {
+      std::set<std::string> points;
+      for (std::size_t at = line.find('('); at != std::string::npos; at = line.find('(', at + 1))
+        points.insert(line.substr(at, line.find(')', at) - at));
+      line = "closed";
+      for (const auto& point : points) line += " " + point + ")";
     }
-    std::set<std::string> points;
-    for (std::size_t at = line.find('('); at != std::string::npos; at = line.find('(', at + 1))
-      points.insert(line.substr(at, line.find(')', at) - at));
-    result += "closed";
-    for (const auto& point : points) result += " " + point;
-    result += "\n";
+    lines.push_back(line);
   }
+  std::sort(lines.begin(), lines.end());
+  std::string result;
+  for (const auto& line : lines) result += line + "\n";
   return result;
 }
 
