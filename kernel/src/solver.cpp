@@ -175,6 +175,9 @@ class Solver {
     return label;
   }
 
+  /// Where several sources share a region, its border may run along edges; so facets with such a label set are examined, too.
+  bool is_one_source(LabelSetId labels) const { return labels != kNone && s_.label_sets[labels].size() == 1; }
+
   bool tessellate_facets() {
     const FaceId n = s_.refined.face_count();
     face_labels_.assign(n, kNone);
@@ -182,14 +185,14 @@ class Solver {
     for (FaceId f = 0; f < n; ++f) {
       if (!s_.resolution->is_reached(s_.refined.origin(3 * f))) continue;
       face_labels_[f] = common_label(f);
-      if (face_labels_[f] == kNone) several.push_back(f);
+      if (!is_one_source(face_labels_[f])) several.push_back(f);
     }
     waves_.resize(several.size());
     tessellations_.resize(several.size());
     const bool go_on = in_parallel(several.size(), [&](std::size_t i, predicates::Decisions& decisions) {
       auto waves = std::make_unique<FieldWaves>(*s_.resolution, s_.kinds, several[i]);
       face_labels_[several[i]] = waves->only_label();
-      if (face_labels_[several[i]] != kNone) return;
+      if (is_one_source(face_labels_[several[i]])) return;
       tessellations_[i] = tessellate(*waves, decisions);
       waves->forget_frames();
       waves_[i] = std::move(waves);

@@ -139,6 +139,20 @@ TEST(Shapes, SummitAgainstItsSurroundings) {
   EXPECT_EQ(d.vertices.size(), 8u);
 }
 
+TEST(Shapes, BorderOfASharedRegionAlongEdges) {
+  // Source 1 reaches source 0 with exactly its weight, so behind the hole's corner both are nearest; the borders of that region run along mesh edges.
+  const Mesh mesh(test::plane_with_hole(9, 6, 2, 5, 2, 5));
+  std::vector<Source> sources;
+  for (const auto& [place, weight] : std::vector<std::pair<Point, double>>{{{2, 5, 0}, 1}, {{3, 5, 0}, 0}, {{6, 3, 0}, 0}}) {
+    sources.push_back(at_vertex(mesh, vertex_at(mesh, place)));
+    sources.back().weight = weight;
+  }
+  const auto solution = solve(mesh, sources);
+  ASSERT_TRUE(test::is_certified(solution));
+  EXPECT_EQ(solution.nearest(vertex_at(mesh, {0, 4, 0})).size(), 2u);
+  EXPECT_FALSE(solution.diagram().shared.empty());
+}
+
 TEST(Shapes, ArcsAlongAnEdgeHaveTheImagesThatAreNearestThere) {
   // The side of a box and parts of two others. The edge from (5, 0, 0) to (5, 1, 1) halves the way between source 1 and the image
   // of source 0 over the top, which takes over from that over the front in the middle of the edge: found by fuzzing.
