@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gvd/kernel/vertex_kind.hpp"
 #include "support/meshes.hpp"
 
 namespace gvd::test {
@@ -107,6 +108,30 @@ TEST(Shadow, LiesBeyondHalfATurnOnBothSides) {
   EXPECT_GT(checked.first, 500);
   EXPECT_GT(checked.last, 500);
   EXPECT_GT(checked.faces_outside, 1000);
+}
+
+// Round the corner of a wall, to a target seen between the ray that grazes the wall and a vertex ever closer to that ray: the relay's window gets there.
+TEST(Shadow, IsSentUpToItsBoundary) {
+  constexpr VertexId kSource = 0, kRelay = 1, kTarget = 6;
+  for (const bool mirrored : {false, true}) {  // the other way round the corner
+    for (int k = 1; k <= 44; ++k) {
+      const double below = std::ldexp(-1.0, -k);
+      MeshArrays arrays{{{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, -1, 0}, {2, below, 0}, {3, below / 2, 0}},
+                        {{0, 1, 2}, {1, 3, 2}, {1, 4, 3}, {3, 4, 5}, {3, 5, 6}}};
+      if (mirrored)
+        for (auto& face : arrays.faces) std::swap(face[1], face[2]);
+      const Mesh mesh(arrays);
+      const Frames frames(mesh);
+      predicates::Decisions decisions;
+      DistanceField field;
+      const std::vector<WaveStart> start{{kSource, 0}};
+      ASSERT_TRUE(propagate(frames, start, classify_vertices(mesh, decisions), field, decisions));
+      bool seen = false;
+      for (std::uint32_t c = field.first_candidate[kTarget]; c != kNone; c = field.candidates[c].next)
+        seen = seen || (field.candidates[c].window != kNone && field.candidates[c].via == kRelay);
+      ASSERT_TRUE(seen) << "2^-" << k << ", mirrored " << mirrored;
+    }
+  }
 }
 
 }  // namespace
