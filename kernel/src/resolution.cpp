@@ -223,16 +223,20 @@ Ball<Mpfr> Resolution::distance(VertexId v, int bits) const { return length(fiel
 std::optional<Exact> Resolution::exact_distance(VertexId v) const {
   const auto path = exact_path(field_.candidates[field_.first_candidate[v]], v);
   if (!path) return std::nullopt;
-  return length(*path);
+  Exact sum(path->weight);
+  for (const Leg& leg : path->legs) {
+    if (!leg.squared) return std::nullopt;
+    sum += sqrt(Exact(*leg.squared));
+  }
+  return sum;
 }
 
 std::optional<Resolution::Path> Resolution::exact_path(const Candidate& candidate, VertexId v) const {
   Path path;
   const Candidate* c = &candidate;
   for (; c->via != v; v = c->via, c = &field_.candidates[field_.first_candidate[v]]) {
-    auto squared = squared_leg(*c, v);
-    if (!squared || path.legs.size() == kMostLegs) return std::nullopt;
-    path.legs.push_back({c->window, c->via, v, std::move(*squared)});
+    if (path.legs.size() == kMostLegs) return std::nullopt;
+    path.legs.push_back({c->window, c->via, v, squared_leg(*c, v)});
   }
   path.weight = robust::exact_rational(sources_[source_of_vertex_[v]].weight) * robust::power_of_two(-frames_.scale());
   return path;
@@ -251,29 +255,36 @@ std::optional<RootSum> Resolution::squared_leg(const Candidate& c, VertexId v) c
   return (x * x + y * y) * frames_.exact(Mesh::face(h)).squared[h % 3];
 }
 
+/// The sum of roots where both have one, which is quick; otherwise the span test on the strips.
+bool Resolution::are_equal(const Leg& a, const Leg& b) const {
+  if (a.window == b.window && a.from == b.from && a.to == b.to) return true;
+  if (a.squared && b.squared) return (*a.squared - *b.squared).is_zero();
+  if (a.window == kNone || b.window == kNone) return false;
+  const auto program = [&](WindowId window) {
+    return squared_length_program(frames_, strip_of(frames_.mesh(), field_, window), field_.windows[window].halfedge());
+  };
+  return robust::are_proved_equal(program(a.window), program(b.window));
+}
+
 /// The sign of the difference of the lengths. Equal legs cancel, the same ones without any arithmetic.
-robust::MaybeSign Resolution::compare(const Path& a, const Path& b) {
+robust::MaybeSign Resolution::compare(const Path& a, const Path& b) const {
   std::vector<const Leg*> more, less;
   for (const Leg& leg : a.legs) more.push_back(&leg);
   for (const Leg& leg : b.legs) {
-    const auto equal = std::find_if(more.begin(), more.end(), [&](const Leg* other) {
-      return (leg.window == other->window && leg.from == other->from && leg.to == other->to) || (leg.squared - other->squared).is_zero();
-    });
+    const auto equal = std::find_if(more.begin(), more.end(), [&](const Leg* other) { return are_equal(leg, *other); });
     if (equal == more.end())
       less.push_back(&leg);
     else
       more.erase(equal);
   }
   Exact difference(a.weight - b.weight);
-  for (const Leg* leg : more) difference += sqrt(Exact(leg->squared));
-  for (const Leg* leg : less) difference -= sqrt(Exact(leg->squared));
+  for (const auto* legs : {&more, &less})
+    for (const Leg* leg : *legs) {
+      if (!leg->squared) return std::nullopt;
+      const Exact length = sqrt(Exact(*leg->squared));
+      difference += legs == &more ? length : -length;
+    }
   return maybe_sign(difference);
-}
-
-Exact Resolution::length(const Path& path) {
-  Exact sum(path.weight);
-  for (const Leg& leg : path.legs) sum += sqrt(Exact(leg.squared));
-  return sum;
 }
 
 bool Resolution::attains(WindowId window, VertexId v) const noexcept {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gvd/kernel/error.hpp"
+#include "gvd/predicates/strip_program.hpp"
 #include "rational_frame.hpp"
 
 namespace gvd::kernel {
@@ -61,6 +62,13 @@ predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h) {
   const auto of_face = frames.in_roots(Mesh::face(h));
   const auto& frame = (*of_face)[h % 3];
   return {frame.u, frame.y};
+}
+
+robust::RootProgram squared_length_program(const Frames& frames, const Strip& strip, HalfedgeId last) {
+  return predicates::squared_length_program(strip, last, [&](HalfedgeId h) {
+    const FaceId f = Mesh::face(h);
+    return predicates::ProgramFace{frames.exact(f), frames.doubled_area(f)};
+  });
 }
 
 }  // namespace gvd::kernel

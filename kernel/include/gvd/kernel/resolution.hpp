@@ -90,7 +90,7 @@ class Resolution {
   struct Leg {
     WindowId window;  ///< kNone: along an edge
     VertexId from, to;
-    robust::RootSum squared;  ///< length
+    std::optional<robust::RootSum> squared;  ///< length; empty if that is too long a sum
   };
   struct Path {
     mpq_class weight;
@@ -98,8 +98,8 @@ class Resolution {
   };
   std::optional<Path> exact_path(const Candidate& c, VertexId v) const;
   std::optional<robust::RootSum> squared_leg(const Candidate& c, VertexId v) const;
-  static robust::MaybeSign compare(const Path& a, const Path& b);
-  static robust::Exact length(const Path& path);
+  bool are_equal(const Leg& a, const Leg& b) const;
+  robust::MaybeSign compare(const Path& a, const Path& b) const;
 
   const Frames& frames_;
   DistanceField& field_;

@@ -1,0 +1,105 @@
+#include "gvd/predicates/strip_program.hpp"
+
+namespace gvd::predicates {
+
+using robust::RootProgram;
+
+namespace {
+
+using RationalMatrix = std::array<std::array<mpq_class, RootProgram::kSize>, RootProgram::kSize>;
+
+/// The multiple of  constant + root factor  with the least whole entries, root = coefficient sqrt(radicand); its `scale` is left behind.
+class WholeLayer {
+ public:
+  WholeLayer(const RationalMatrix& constant, const RationalMatrix& factor, const robust::RootSum& root) {
+    const bool rational = root.terms().empty();
+    const mpq_class& coefficient = rational ? root.constant() : root.terms().front().coefficient;
+    layer.radicand = rational ? mpz_class(1) : root.terms().front().radicand;
+    mpz_class numerators = 0, denominators = 1;
+    const auto note = [&](const mpq_class& q) {
+      numerators = gcd(numerators, q.get_num());
+      denominators = lcm(denominators, q.get_den());
+    };
+    for_each_entry([&](std::size_t i, std::size_t j) {
+      note(constant[i][j]);
+      note(factor[i][j] * coefficient);
+    });
+    scale = mpq_class(denominators) / numerators;
+    for_each_entry([&](std::size_t i, std::size_t j) {
+      layer.constant[i][j] = mpq_class(constant[i][j] * scale).get_num();
+      layer.factor[i][j] = mpq_class(factor[i][j] * coefficient * scale).get_num();
+    });
+  }
+
+  RootProgram::Layer layer;
+  mpq_class scale;
+
+ private:
+  template <class Visit>
+  static void for_each_entry(const Visit& visit) {
+    for (std::size_t i = 0; i < RootProgram::kSize; ++i)
+      for (std::size_t j = 0; j < RootProgram::kSize; ++j) visit(i, j);
+  }
+};
+
+/// Times the squared length of the side that is crossed: z' = z (d - i root) / squared, for the turn at a = 0.
+WholeLayer left_turn(const ExactFace& face, std::size_t k, const robust::RootSum& root) {
+  const std::size_t from = (k + 1) % 3;
+  const mpq_class &d = face.dot[from], &squared = face.squared[k];
+  RationalMatrix constant, factor;
+  constant[0][0] = face.squared[from];
+  constant[1][1] = constant[2][2] = d;
+  constant[3][3] = squared;
+  factor[1][2] = 1;
+  factor[2][1] = -1;
+  return {constant, factor, root};
+}
+
+/// 1 - z' = (1 - z) (d + i root) / squared, for the turn at b = 1.
+WholeLayer right_turn(const ExactFace& face, std::size_t k, const robust::RootSum& root) {
+  const mpq_class &d = face.dot[k], &squared = face.squared[k], &from = face.squared[(k + 2) % 3];
+  RationalMatrix constant, factor;
+  constant[0] = {from, 2 * (d - from), 0, squared - 2 * d + from};
+  constant[1] = {0, d, 0, squared - d};
+  constant[2][2] = d;
+  constant[3][3] = squared;
+  factor[0][2] = -2;
+  factor[1][2] = -1;
+  factor[2] = {0, 1, 0, -1};
+  return {constant, factor, root};
+}
+
+}  // namespace
+
+StripProgram::StripProgram(const ProgramFace& root_face, std::size_t k) : program_({0, 0, 0, 1}) {
+  const ExactFace& face = root_face.face;
+  const std::size_t next = (k + 1) % 3;
+  RationalMatrix constant, factor;
+  constant[0][3] = face.squared[next];
+  constant[1][3] = face.dot[next];
+  constant[3][3] = face.squared[k];
+  factor[2][3] = -1;
+  WholeLayer whole(constant, factor, root_face.doubled_area);
+  program_.append(std::move(whole.layer));
+  denominator_ = whole.scale * face.squared[k];
+}
+
+void StripProgram::cross(const ProgramFace& face, std::size_t k, bool left) {
+  WholeLayer whole = left ? left_turn(face.face, k, face.doubled_area) : right_turn(face.face, k, face.doubled_area);
+  program_.append(std::move(whole.layer));
+  denominator_ *= whole.scale * face.face.squared[k];
+}
+
+/// Over `prev` into the frame in which the apex is 1.
+RootProgram StripProgram::squared_distance_to_apex(const ProgramFace& face, std::size_t k) const {
+  const std::size_t prev = (k + 2) % 3;
+  StripProgram all = *this;
+  all.cross(face, prev, true);
+  const mpq_class& squared = face.face.squared[prev];
+  const mpz_class& n = squared.get_num();
+  // The denominator is whole: it is the product of the entries [3][3] of the layers.
+  all.program_.finish({n, -2 * n, 0, n}, all.denominator_.get_num() * squared.get_den());
+  return all.program_;
+}
+
+}  // namespace gvd::predicates
