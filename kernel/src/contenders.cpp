@@ -174,4 +174,31 @@ int Contenders::ray_through(FacetLadder& ladder, const Contender& wave, const Co
   return kNotTangent;
 }
 
+Sign Contenders::mirrored(std::size_t i, std::size_t j, std::size_t side) const {
+  const auto proved = [&](std::size_t entering, std::size_t other) {
+    const auto [known, added] = mirrored_.try_emplace({entering, other, side}, false);
+    if (added) known->second = are_mirror_images(list_[entering], list_[other], side);
+    return known->second;
+  };
+  if (proved(i, j)) return Sign::positive;
+  return proved(j, i) ? Sign::negative : Sign::zero;
+}
+
+/// Asks for a proof only where doubles cannot exclude it.
+bool Contenders::are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const {
+  using F = FacetWaves::F;
+  if (!entering.enters_over(side)) return false;
+  const auto &a = waves_.site(entering.site, F()), &b = waves_.site(other.site, F());
+  const auto line = predicates::side_line(waves_.frame(F()), side);
+  const auto apart = a.image - b.image, twice_the_middle = (a.image - line.origin) + (b.image - line.origin);
+  for (const F& x : {a.weight - b.weight, dot(apart, line.direction), cross(twice_the_middle, line.direction)})
+    if (maybe_sign(x).value_or(Sign::zero) != Sign::zero) return false;
+  for (std::size_t e = 0; e < waves_.sites.size(); ++e) {
+    if (representative_[e] != entering.site || waves_.sites[e].window == kNone || waves_.sites[e].side != side) continue;
+    for (std::size_t o = 0; o < waves_.sites.size(); ++o)
+      if (representative_[o] == other.site && waves_.are_mirror_images(e, o)) return true;
+  }
+  return false;
+}
+
 }  // namespace gvd::kernel

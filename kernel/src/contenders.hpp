@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "facet_ladder.hpp"
@@ -60,6 +61,9 @@ class Contenders {
   /// Whether `relay` is, by identity, nowhere nearer than `wave`, cones aside: the path to the relay goes through `wave`'s strip, so its weight is
   /// that of `wave` plus the distance of the images, and their bisector is the ray beyond the relay. (Tangent pairs are of this kind.)
   bool eclipses(std::size_t wave, std::size_t relay) const { return eclipsed_[wave * list_.size() + relay] != 0; }
+  /// Whether the two tie along a side because their images are mirror images in it: positive if i comes in over that side, negative if j does, zero
+  /// if nothing of the kind is proved.
+  robust::Sign mirrored(std::size_t i, std::size_t j, std::size_t side) const;
   std::string name(std::size_t i) const;
   /// Per site the one that stands for it: itself, or the lowest of the windows with its image.
   const std::vector<std::uint32_t>& representatives() const { return representative_; }
@@ -73,8 +77,11 @@ class Contenders {
   bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   int ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
 
+  bool are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const;
+
   FacetWaves& waves_;
   std::vector<Contender> list_;
+  mutable std::map<std::array<std::size_t, 3>, bool> mirrored_;  ///< asked for: i that comes in over the side, j, the side
   std::vector<std::uint32_t> representative_;
   std::vector<signed char> tangent_;
   std::vector<std::uint8_t> eclipsed_;

@@ -30,6 +30,10 @@ MaybeSign CornerOrder::nearer_beside(std::size_t c, Direction direction, std::ui
     ladder_.count(Predicate::corner_order, robust::Stage::identity);
     return a.corner == c ? Sign::negative : Sign::positive;
   }
+  if (contenders_.mirrored(p, q, direction == Direction::outgoing ? c : (c + 2) % 3) != Sign::zero) {
+    ladder_.count(Predicate::corner_order, robust::Stage::identity);
+    return Sign::zero;
+  }
   const auto test = [&](const auto& numbers) {
     const auto& at = numbers.side[c].origin;
     const auto along = direction_from(numbers, c, direction);

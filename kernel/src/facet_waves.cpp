@@ -198,6 +198,21 @@ bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   return enclose_only_flat(sides_of(strips_[left]), sides_of(strips_[right]));
 }
 
+/// Both images in the frame of the side seen from behind, in which the window's is 1 - z.
+bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
+  const FacetSite &a = sites[entering], &b = sites[other];
+  const std::uint8_t side = a.side;
+  if (a.window == kNone || (b.window == kNone ? b.corner != (side + 2) % 3 : b.side == side)) return false;
+  if (!resolution_.have_equal_distances(a.root, b.root)) return false;
+  const Frames& frames = resolution_.frames();
+  const predicates::ProgramFace here = program_face(frames, face);
+  const predicates::StripProgram of_a = strip_program(frames, strips_[entering]);
+  predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(here, side) : strip_program(frames, strips_[other]);
+  if (b.window != kNone) of_b.cross(here, side, side == (b.side + 2) % 3);
+  return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
+         are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
+}
+
 /// The nearest way to the root of `relay` must be the parent's own, as far as that goes, and then turn about it into the strip of
 /// `relay`.
 bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {

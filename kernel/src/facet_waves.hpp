@@ -30,6 +30,7 @@ class FieldWaves final : public FacetWaves {
   bool exact_is_cheap() override;
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
   bool have_one_image(std::size_t left, std::size_t right) override;
+  bool are_mirror_images(std::size_t entering, std::size_t other) override;
   /// Gives back what only the MPFR stage needs.
   void forget_frames();
 

@@ -207,6 +207,7 @@ std::optional<OutlineWalk::Event> OutlineWalk::contact(std::size_t side, std::ui
   if (gap(ladder_.filter())) return std::nullopt;
   const std::size_t begins = b.enters_over(side) ? 0 : 1;  // the ray where, going along the side, its cone begins
   Event event{from, to, b.cone_site[begins], static_cast<std::uint8_t>(begins), true, true, std::nullopt};
+  if (contenders_.mirrored(from, to, side) != Sign::zero) return event;
   const MaybeSign sign = ladder_.decide(Predicate::edge_tie, gap, [&] { return describe(side, event, "contact"); });
   return sign == Sign::zero ? std::optional(event) : std::nullopt;
 }
@@ -291,7 +292,21 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
   return on_ray ? Answer::on_ray : Answer::yes;
 }
 
+/// Mirror images in a side tie all along it, and on the lines of the other sides they tie at its ends.
+bool OutlineWalk::ties_at_corners(const Event& event) const {
+  for (std::size_t side = 0; side < 3; ++side)
+    if (event.ray == FacetTessellation::kNoSite && contenders_.mirrored(event.from, event.to, side) != Sign::zero) return true;
+  return false;
+}
+
+/// Whether the two are at one point by identity: mirror images in a side stand for one another along it.
+bool OutlineWalk::at_one_point(std::size_t side, const Event& a, const Event& b) const {
+  const auto alike = [&](std::uint32_t i, std::uint32_t j) { return i == j || contenders_.mirrored(i, j, side) != Sign::zero; };
+  return a.ray == FacetTessellation::kNoSite && b.ray == FacetTessellation::kNoSite && alike(a.from, b.from) && alike(a.to, b.to);
+}
+
 std::optional<bool> OutlineWalk::happens(std::size_t side, Event& event, const std::optional<Event>& previous) {
+  if (ties_at_corners(event) || (previous && at_one_point(side, event, *previous))) return false;
   const auto answer = ladder_.decide(
       Predicate::edge_tie, [&](const auto& numbers) { return happens_in(numbers, side, event, previous); },
       [&] { return describe(side, event, "overtaking"); });
@@ -301,6 +316,7 @@ std::optional<bool> OutlineWalk::happens(std::size_t side, Event& event, const s
 }
 
 MaybeSign OutlineWalk::compare(std::size_t side, const Event& a, const Event& b) {
+  if (at_one_point(side, a, b)) return Sign::zero;
   const auto test = [&](const auto& numbers) -> MaybeSign {
     const auto ta = parameter(numbers, side, a), tb = parameter(numbers, side, b);
     if (ta.existence != Existence::proved || tb.existence != Existence::proved) return std::nullopt;

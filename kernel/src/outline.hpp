@@ -50,6 +50,8 @@ class OutlineWalk {
   std::optional<Event> candidate(std::size_t side, std::uint32_t from, std::uint32_t to);
   std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
+  bool ties_at_corners(const Event& event) const;
+  bool at_one_point(std::size_t side, const Event& a, const Event& b) const;
   std::optional<bool> happens(std::size_t side, Event& event, const std::optional<Event>& previous);
   template <class NT>
   std::optional<Answer> happens_in(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event,

@@ -231,6 +231,13 @@ std::optional<Exact> Resolution::exact_distance(VertexId v) const {
   return sum;
 }
 
+bool Resolution::have_equal_distances(VertexId a, VertexId b) const {
+  if (a == b) return true;
+  const auto path_to = [&](VertexId v) { return exact_path(field_.candidates[field_.first_candidate[v]], v); };
+  const auto to_a = path_to(a), to_b = path_to(b);
+  return to_a && to_b && compare(*to_a, *to_b) == robust::Sign::zero;
+}
+
 std::optional<Resolution::Path> Resolution::exact_path(const Candidate& candidate, VertexId v) const {
   Path path;
   const Candidate* c = &candidate;
@@ -261,7 +268,8 @@ bool Resolution::are_equal(const Leg& a, const Leg& b) const {
   if (a.squared && b.squared) return (*a.squared - *b.squared).is_zero();
   if (a.window == kNone || b.window == kNone) return false;
   const auto program = [&](WindowId window) {
-    return squared_length_program(frames_, strip_of(frames_.mesh(), field_, window), field_.windows[window].halfedge());
+    const HalfedgeId h = field_.windows[window].halfedge();
+    return strip_program(frames_, strip_of(frames_.mesh(), field_, window)).squared_distance_to_apex(program_face(frames_, Mesh::face(h)), h % 3);
   };
   return robust::are_proved_equal(program(a.window), program(b.window));
 }

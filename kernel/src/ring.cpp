@@ -77,10 +77,19 @@ PlanePoint<NT> Ring::vector(const FacetNumbers<NT>& numbers, const Direction& d)
   return {gain.y, -gain.x};
 }
 
+/// Mirror images in a side tie along it; turning through its direction, the wave that comes over it gives way.
+Sign Ring::along_mirror(const Direction& change, const Direction& side) const {
+  if (change.kind != Direction::Kind::overtaking || !is_side(side)) return Sign::zero;
+  const Sign sense = contenders_.mirrored(tied_[change.a].contender, tied_[change.b].contender, side.a);
+  return side.kind == Direction::Kind::side ? sense : -sense;
+}
+
 /// Whether the two are one line by identity: positive in the same sense, negative in the opposite one; zero if nothing is known.
 Sign Ring::same_line(const Direction& a, const Direction& b) const {
   using Kind = Direction::Kind;
   if (a == b) return Sign::positive;
+  for (const Sign known : {along_mirror(a, b), along_mirror(b, a)})
+    if (known != Sign::zero) return known;
   if (a.kind == Kind::overtaking && b.kind == Kind::overtaking) return a.a == b.b && a.b == b.a ? Sign::negative : Sign::zero;
   const auto to_an_image = [](Kind kind) { return kind == Kind::away || kind == Kind::towards; };
   if (!to_an_image(a.kind) || !to_an_image(b.kind) || (a.a != b.a && same_[a.a * tied_.size() + b.a] <= 0)) return Sign::zero;
@@ -229,6 +238,7 @@ bool Ring::is_side(const Direction& d) const {
 /// along it. Unlike a slope, this needs no number of the point itself.
 bool Ring::are_mirrored(std::uint32_t i, std::uint32_t j, const Direction& d) {
   const Contender &a = contenders_[tied_[i].contender], &b = contenders_[tied_[j].contender];
+  if (contenders_.mirrored(tied_[i].contender, tied_[j].contender, d.a) != Sign::zero) return true;
   const bool same_weight = a.root == b.root;
   const auto gap = [&](const auto& numbers, robust::Stage) {
     return maybe_sign(predicates::mirrored_gap(numbers.side[d.a], *numbers.sites[a.site], *numbers.sites[b.site], same_weight));

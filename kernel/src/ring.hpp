@@ -58,6 +58,7 @@ class Ring {
   std::optional<Direction> next_change(const Direction& from, std::uint32_t winner);
   std::optional<bool> comes_before(const Direction& from, const Direction& a, const Direction& b);
   std::optional<int> quadrant(const Direction& from, const Direction& d);
+  robust::Sign along_mirror(const Direction& change, const Direction& side) const;
   robust::Sign same_line(const Direction& a, const Direction& b) const;
   robust::MaybeSign turn(const Direction& a, const Direction& b);
   robust::MaybeSign along(const Direction& a, const Direction& b);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gvd/kernel/error.hpp"
-#include "gvd/predicates/strip_program.hpp"
 #include "rational_frame.hpp"
 
 namespace gvd::kernel {
@@ -64,11 +63,13 @@ predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h) {
   return {frame.u, frame.y};
 }
 
-robust::RootProgram squared_length_program(const Frames& frames, const Strip& strip, HalfedgeId last) {
-  return predicates::squared_length_program(strip, last, [&](HalfedgeId h) {
-    const FaceId f = Mesh::face(h);
-    return predicates::ProgramFace{frames.exact(f), frames.doubled_area(f)};
-  });
+predicates::StripProgram strip_program(const Frames& frames, const Strip& strip) {
+  return predicates::strip_program(strip, [&](HalfedgeId h) { return program_face(frames, Mesh::face(h)); });
+}
+
+predicates::ProgramFace program_face(const Frames& frames, FaceId f) {
+  const predicates::ExactFace face = frames.exact(f);
+  return {face, (*frames.in_roots(f))[0].y * face.squared[0]};
 }
 
 }  // namespace gvd::kernel

@@ -90,6 +90,13 @@ void StripProgram::cross(const ProgramFace& face, std::size_t k, bool left) {
   denominator_ *= whole.scale * face.face.squared[k];
 }
 
+RootProgram StripProgram::value(const std::array<long, 4>& functional) const {
+  RootProgram result = program_;
+  // The denominator is whole: it is the product of the entries [3][3] of the layers.
+  result.finish({functional[0], functional[1], functional[2], functional[3]}, denominator_.get_num());
+  return result;
+}
+
 /// Over `prev` into the frame in which the apex is 1.
 RootProgram StripProgram::squared_distance_to_apex(const ProgramFace& face, std::size_t k) const {
   const std::size_t prev = (k + 2) % 3;
@@ -97,7 +104,6 @@ RootProgram StripProgram::squared_distance_to_apex(const ProgramFace& face, std:
   all.cross(face, prev, true);
   const mpq_class& squared = face.face.squared[prev];
   const mpz_class& n = squared.get_num();
-  // The denominator is whole: it is the product of the entries [3][3] of the layers.
   all.program_.finish({n, -2 * n, 0, n}, all.denominator_.get_num() * squared.get_den());
   return all.program_;
 }

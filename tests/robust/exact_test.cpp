@@ -36,6 +36,27 @@ TEST(Exact, KnownZeros) {
   EXPECT_EQ(maybe_sign(abs(-phi) - phi), Sign::zero);
 }
 
+/// Expressions that are zero by an identity, over several square classes, and their neighbours 2^-600 away.
+TEST(Exact, ZerosByConstructionAndTheirNeighbours) {
+  RandomNumbers random(53);
+  const Exact speck(power_of_two(-600));
+  const auto some = [&] {  // c_0 + c_1 sqrt r_1 + c_2 sqrt r_2 > 0
+    Exact x(static_cast<double>(1 + random.below(9)));
+    for (int i = 0; i < 2; ++i) x += static_cast<double>(random.below(4)) * root(static_cast<double>(1 + random.below(12)));
+    return x;
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const Exact a = some(), b = some(), c = some();
+    std::vector<Exact> zeros = {sqrt(a) * sqrt(b) - sqrt(a * b), square(sqrt(a) + sqrt(b)) - (a + b + 2 * sqrt(a * b)),
+                                sqrt(a * a * b) - a * sqrt(b), sqrt(a + b + 2 * sqrt(a * b)) - sqrt(a) - sqrt(b),
+                                (sqrt(a) + sqrt(c)) / (sqrt(b) + sqrt(c)) * (b - c) - (sqrt(a) + sqrt(c)) * (sqrt(b) - sqrt(c))};
+    const std::size_t k = random.below(zeros.size());
+    ASSERT_EQ(maybe_sign(zeros[k]), Sign::zero) << i << ", identity " << k;
+    ASSERT_EQ(maybe_sign(zeros[k] + speck), Sign::positive) << i << ", identity " << k;
+    ASSERT_EQ(maybe_sign(zeros[k] - speck), Sign::negative) << i << ", identity " << k;
+  }
+}
+
 TEST(Exact, NearZerosAreNotZeros) {
   const Exact speck = Exact(power_of_two(-700));
   EXPECT_EQ(maybe_sign(root(2) + root(3) - sqrt(5 + 2 * root(6) + speck)), Sign::negative);

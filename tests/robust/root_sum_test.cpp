@@ -74,6 +74,30 @@ TEST(RootSum, SignsAgreeWithCore) {
   EXPECT_GT(zeros, 5);
 }
 
+TEST(RootSum, ProductsMergeSquareClasses) {
+  EXPECT_EQ(compare(root(2) * root(3), root(6)), Sign::zero);
+  EXPECT_EQ(compare(root(6) * root(10), 2 * root(15)), Sign::zero);
+  EXPECT_EQ(compare(root(mpq_class(2, 3)) * root(6), RootSum(2)), Sign::zero);
+  RandomNumbers random(43);
+  const auto some = [&] {
+    RootSum x(static_cast<long>(random.below(7)) - 3);
+    for (int i = 0; i < 3; ++i) {
+      mpq_class radicand(1 + random.below(30), 1 + random.below(3));
+      radicand.canonicalize();
+      x.add(static_cast<long>(random.below(7)) - 3, radicand);
+    }
+    return x;
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const RootSum a = some(), b = some(), c = some();
+    ASSERT_TRUE((a * b - b * a).is_zero());
+    ASSERT_TRUE(((a + b) * c - a * c - b * c).is_zero());
+    ASSERT_TRUE((a * b * c - a * (b * c)).is_zero());
+    ASSERT_EQ((a * b).sign(), a.sign() * b.sign());
+    ASSERT_EQ((a * b).is_zero(), a.is_zero() || b.is_zero());
+  }
+}
+
 TEST(RootSum, LawsOfAnOrderedVectorSpace) {
   RandomNumbers random(42);
   const auto some = [&] {

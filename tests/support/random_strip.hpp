@@ -14,8 +14,11 @@ struct LooseStrip {
   predicates::Strip strip;
   std::uint32_t last = 0;  ///< the apex of this half-edge is the target
 
+  predicates::StripProgram program() const {
+    return predicates::strip_program(strip, [&](std::uint32_t h) -> const predicates::ProgramFace& { return faces[h / 3]; });
+  }
   robust::RootProgram squared_length() const {
-    return predicates::squared_length_program(strip, last, [&](std::uint32_t h) -> const predicates::ProgramFace& { return faces[h / 3]; });
+    return program().squared_distance_to_apex(faces[last / 3], last % 3);
   }
 };
 

@@ -74,6 +74,14 @@ class FacetWaves {
     return false;
   }
 
+  /// Whether a window and another wave, of equal weight, have images that are mirror images in the side over which the window enters: then they tie
+  /// along that side. True is a proof, false says nothing.
+  virtual bool are_mirror_images(std::size_t entering, std::size_t other) {
+    static_cast<void>(entering);
+    static_cast<void>(other);
+    return false;
+  }
+
   /// Whether the path to the root of `relay` goes through the strip of window `parent`, which turns about that root and then crosses the same
   /// faces as the strip of `relay`: then the relay's image lies on a ray of the parent and the weights differ by the distance of the images,
   /// by identity. Asked only where doubles cannot exclude it; so the default is wrong only where a different strip of the same relay has an image

@@ -67,6 +67,8 @@ class Resolution {
   robust::Ball<robust::Mpfr> distance(VertexId v, int bits) const;
   /// Empty if the paths cross faces of too many square classes, or bend too often.
   std::optional<robust::Exact> exact_distance(VertexId v) const;
+  /// True is a proof, false says nothing.
+  bool have_equal_distances(VertexId a, VertexId b) const;
 
   /// A window in exact numbers; null if its strip crosses faces of too many square classes.
   std::shared_ptr<const predicates::RootUnfolding> exact_unfolding(WindowId window) const;

@@ -7,8 +7,8 @@
 #include "gvd/kernel/distance_field.hpp"
 #include "gvd/kernel/frames.hpp"
 #include "gvd/predicates/root_strip.hpp"
+#include "gvd/predicates/strip_program.hpp"
 #include "gvd/robust/gmp.hpp"
-#include "gvd/robust/root_program.hpp"
 
 namespace gvd::kernel {
 
@@ -31,7 +31,8 @@ predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const pred
 
 /// The apex of the frame of h.
 predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h);
-/// The squared distance from the root to the apex of `last`, over which the strip comes in, however long the strip.
-robust::RootProgram squared_length_program(const Frames& frames, const predicates::Strip& strip, HalfedgeId last);
+/// The strip as a program, however many classes it crosses.
+predicates::StripProgram strip_program(const Frames& frames, const predicates::Strip& strip);
+predicates::ProgramFace program_face(const Frames& frames, FaceId f);
 
 }  // namespace gvd::kernel

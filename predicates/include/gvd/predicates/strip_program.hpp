@@ -21,6 +21,8 @@ class StripProgram {
   StripProgram(const ProgramFace& root_face, std::size_t k);
   /// Over side k of a face, which is its `prev` (left) or `next`.
   void cross(const ProgramFace& face, std::size_t k, bool left);
+  /// A multiple of |z|^2, x, y and 1, added up.
+  robust::RootProgram value(const std::array<long, 4>& functional) const;
   /// The squared distance from the root to the apex of side k of the face entered over it, in the units of the faces.
   robust::RootProgram squared_distance_to_apex(const ProgramFace& face, std::size_t k) const;
 
@@ -29,12 +31,12 @@ class StripProgram {
   mpq_class denominator_ = 1;
 };
 
-/// The whole strip, up to the apex of `last`. `face(h)` gives the ProgramFace of a half-edge.
+/// The whole strip. `face(h)` gives the ProgramFace of a half-edge.
 template <class FaceOf>
-robust::RootProgram squared_length_program(const Strip& strip, std::uint32_t last, FaceOf&& face) {
+StripProgram strip_program(const Strip& strip, FaceOf&& face) {
   StripProgram program(face(strip.opposite), strip.opposite % 3);
   for (const StripStep& step : strip.steps) program.cross(face(step.side), step.side % 3, step.left);
-  return program.squared_distance_to_apex(face(last), last % 3);
+  return program;
 }
 
 }  // namespace gvd::predicates
