@@ -1,6 +1,7 @@
 #include "propagation.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -75,7 +76,7 @@ void Propagation::settle(VertexId v) {
   emitted_weight_[v] = field_.distance[v];
   emitted_error_[v] = field_.error[v] + kDistanceError * field_.distance[v];
   send_waves(v, field_.candidates[field_.first_candidate[v]].next == kNone);
-  relax_neighbours(v, emitted_error_[v]);
+  relax_neighbours(v, 1);
   push_lists_at(v);
 }
 
@@ -89,17 +90,27 @@ void Propagation::send_waves(VertexId v, bool only_path) {
 }
 
 /// Along the edges at v, whose distance may still improve within the error.
-void Propagation::relax_neighbours(VertexId v, double e) {
-  const double d = emitted_weight_[v];
+/// `slack`: how often the error of v's distance is passed on.
+void Propagation::relax_neighbours(VertexId v, double slack) {
   mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
-    const double along = d + frames_[h].length;
-    relax(mesh_.target(h), {kNone, v, kNone, along, e + kDistanceError * along, {0, 0}});
+    relax_over(v, mesh_.target(h), frames_[h].length, slack);
     const HalfedgeId last = Mesh::prev(h);  // the edge to the last neighbour of a boundary fan
-    if (mesh_.twin(last) == kNone) {
-      const double back = d + frames_[last].length;
-      relax(mesh_.origin(last), {kNone, v, kNone, back, e + kDistanceError * back, {0, 0}});
-    }
+    if (mesh_.twin(last) == kNone) relax_over(v, mesh_.origin(last), frames_[last].length, slack);
   });
+}
+
+/// Along the edge from v to `to`. A shortest path does not come back to `to`, so what v has over this edge does not count: else the errors of two
+/// vertices that lie close together would raise one another.
+void Propagation::relax_over(VertexId v, VertexId to, double length, double slack) {
+  const double d = emitted_weight_[v];
+  double low = std::numeric_limits<double>::infinity();
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
+    const Candidate& way = field_.candidates[c];
+    if (way.window != kNone || way.via != to) low = std::min(low, way.distance - way.error);
+  }
+  if (low == std::numeric_limits<double>::infinity()) return;
+  const double error = slack * std::max(d - low, upper_[v] - d) + kDistanceError * d, along = d + length;
+  relax(to, {kNone, v, kNone, along, error + kDistanceError * along, {0, 0}});
 }
 
 /// Whether a wave of its own sources may be the nearest at v.
@@ -153,14 +164,13 @@ void Propagation::improve_settled(VertexId v, double low, const Candidate& candi
     field_.restarted = true;
     cut_at_shadow_[v] = 0;
     emitted_weight_[v] = field_.distance[v];
-    const double slack = field_.error[v] + kDistanceError * field_.distance[v];
-    emitted_error_[v] = 2 * slack;  // the range doubles: vertices that lie close together cannot start one another anew without end
+    emitted_error_[v] = 2 * field_.error[v] + kDistanceError * field_.distance[v];  // so that close vertices do not start one another anew for ever
     mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
       if (emitted_[h] != kNone) field_.windows[emitted_[h]].packed |= WindowRecord::kDead;
       emitted_[h] = kNone;
     });
     send_waves(v, false);
-    relax_neighbours(v, slack);
+    relax_neighbours(v, 2);
   } else if (kinds_[v] == VertexKind::relay && !is_source(v)) {
     emit_shadow(v, candidate, false);
   }

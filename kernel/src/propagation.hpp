@@ -50,7 +50,8 @@ class Propagation {
   void relax(VertexId v, const Candidate& candidate);
   void improve_settled(VertexId v, double low, const Candidate& candidate);
   void send_waves(VertexId v, bool only_path);
-  void relax_neighbours(VertexId v, double error);
+  void relax_neighbours(VertexId v, double slack);
+  void relax_over(VertexId v, VertexId to, double length, double slack);
   bool is_source(VertexId v) const;
   void emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow);
   void emit_shadow(VertexId v, const Candidate& arrival, bool only_path);
