@@ -65,26 +65,36 @@ void Resolution::resolve(predicates::Decisions& decisions) {
   std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
     return field_.distance[a] != field_.distance[b] ? field_.distance[a] < field_.distance[b] : a < b;
   });
-  for (const VertexId v : order) resolve_vertex(v, decisions);
+  begun_.assign(labels_.size(), 0);
+  for (const VertexId v : order)
+    if (labels_[v] == kNone && !resolve_vertex(v, decisions)) throw InternalError("vertex " + std::to_string(v) + " is reached by no candidate");
 }
 
-void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
+/// A root of v that is not resolved yet lies farther than v by more than all errors, or the two are closer than doubles can tell: then it comes
+/// first, unless its own paths all come through v. False if v is to leave it out.
+bool Resolution::resolve_root(VertexId v, VertexId root, predicates::Decisions& decisions) {
+  if (!(field_.distance[root] - field_.error[root] < field_.distance[v] + field_.error[v])) return false;
+  if (begun_[root] == 0) return resolve_vertex(root, decisions);
+  predicates::undecided(decisions, Predicate::vertex_distance, "order of vertices " + std::to_string(v) + " and " + std::to_string(root));
+  return false;
+}
+
+/// False if all paths to v come through vertices whose resolution has begun.
+bool Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
+  begun_[v] = 1;
   const auto open_decisions = [&] { return decisions(static_cast<std::size_t>(Predicate::vertex_distance), Stage::undecided); };
   const std::uint64_t open_before = open_decisions();
   std::vector<std::uint32_t> list;
   for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
     const Candidate& candidate = field_.candidates[c];
     if (candidate.window != kNone && field_.is_stale(candidate.window)) continue;  // its path is here again
-    // A root that is not resolved yet lies farther than v by more than all errors, or the two are closer than doubles can tell.
-    if (candidate.via != v && labels_[candidate.via] == kNone) {
-      if (field_.distance[candidate.via] - field_.error[candidate.via] < field_.distance[v] + field_.error[v])
-        predicates::undecided(decisions, Predicate::vertex_distance,
-                              "order of vertices " + std::to_string(v) + " and " + std::to_string(candidate.via));
-      continue;
-    }
+    if (candidate.via != v && labels_[candidate.via] == kNone && !resolve_root(v, candidate.via, decisions)) continue;
     list.push_back(c);
   }
-  if (list.empty()) throw InternalError("vertex " + std::to_string(v) + " is reached by no candidate");
+  if (list.empty()) {
+    begun_[v] = 0;
+    return false;
+  }
   const bool stands_on_proof = std::all_of(list.begin(), list.end(), [&](std::uint32_t c) {
     const VertexId via = field_.candidates[c].via;
     return via == v || proved_[via] != 0;
@@ -106,6 +116,7 @@ void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
   distance_[v] = length(field_.candidates[list.front()], v);
   field_.first_candidate[v] = list.front();
   for (std::size_t i = 0; i < list.size(); ++i) field_.candidates[list[i]].next = i + 1 < list.size() ? list[i + 1] : kNone;
+  return true;
 }
 
 namespace {

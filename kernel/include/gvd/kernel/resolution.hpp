@@ -82,7 +82,8 @@ class Resolution {
   const LabelSets& sets() const noexcept { return sets_; }
 
  private:
-  void resolve_vertex(VertexId v, predicates::Decisions& decisions);
+  bool resolve_vertex(VertexId v, predicates::Decisions& decisions);
+  bool resolve_root(VertexId v, VertexId root, predicates::Decisions& decisions);
   std::vector<std::uint32_t> nearest_of(const std::vector<std::uint32_t>& list, VertexId v, predicates::Decisions& decisions) const;
   /// Empty if the exact lengths are not to be had.
   std::optional<std::vector<std::uint32_t>> nearest_exactly(const std::vector<std::uint32_t>& list, VertexId v) const;
@@ -109,7 +110,7 @@ class Resolution {
   LabelSets& sets_;
   std::vector<std::uint32_t> source_of_vertex_;
   std::vector<LabelSetId> labels_;
-  std::vector<std::uint8_t> proved_;
+  std::vector<std::uint8_t> proved_, begun_;
   std::vector<robust::Ball<robust::DoubleDouble>> distance_;
   std::unique_ptr<ExactUnfoldings> exact_;
 };
