@@ -333,20 +333,21 @@ bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
   node.kind = Node::Kind::side;
   node.where = static_cast<std::uint8_t>(side);
   const bool view_ends = first.to == first.from;
-  const bool any_contact = std::any_of(tied.begin(), tied.end(), [](const Event& event) { return event.contact; });
   if (!view_ends) node.defining = {contenders_[first.from].site, contenders_[first.to].site, FacetTessellation::kNoSite};
   node.ray = first.ray;
   node.ray_end = first.ray_end;
+  std::vector<std::uint32_t> waves{first.from};
+  for (const Event& event : tied)
+    if (event.to != first.from) waves.push_back(event.to);
+  Ring ring(waves_, contenders_, ladder_);
+  // Where a view ends, a wave that only touched along the side may be next, without crossing anything.
+  const bool any_ray = std::any_of(tied.begin(), tied.end(), [](const Event& event) { return event.ray != FacetTessellation::kNoSite; });
+  for (std::uint32_t other = 0; any_ray && other < contenders_.size(); ++other)
+    if (std::find(waves.begin(), waves.end(), other) == waves.end() && ring.ties(node, first.from, other) == true) waves.push_back(other);
+  if (ladder_.failed()) return false;
   std::vector<std::uint32_t> ahead{first.to, first.from};
-  if (tied.size() > 1 || first.on_ray) {
-    std::vector<std::uint32_t> waves{first.from};
-    for (const Event& event : tied)
-      if (event.to != first.from) waves.push_back(event.to);
-    Ring ring(waves_, contenders_, ladder_);
-    for (std::uint32_t other = 0; (view_ends || any_contact) && other < contenders_.size(); ++other)
-      if (std::find(waves.begin(), waves.end(), other) == waves.end() && ring.ties(node, first.from, other) == true)
-        waves.push_back(other);
-    if (!ladder_.failed()) ahead = ring.regions(node, waves);
+  if (waves.size() > 2 || tied.size() > 1 || first.on_ray) {
+    ahead = ring.regions(node, waves);
     if (ladder_.failed()) return false;
     if (ahead.back() != first.from) {
       ladder_.fail(Predicate::edge_tie, describe(side, first, "the order of waves that tie at a point"));
