@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -88,6 +89,7 @@ class PieceMaker {
   }
 
   void make_loops() {
+    arc_area_.assign(s_.darts.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<std::uint8_t> visited(s_.darts.size(), 0);
     for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
       if (visited[d] != 0 || is_removed(d)) continue;
@@ -103,10 +105,18 @@ class PieceMaker {
     // Within a face pieces in the order of their lowest dart; of a piece first the outer outline, which alone has a positive area.
     std::vector<std::uint32_t> first_of(s_.darts.size(), kNone);
     for (const Loop& loop : loops_) first_of[loop.region] = std::min(first_of[loop.region], loop.darts.front());
-    std::sort(loops_.begin(), loops_.end(), [&](const Loop& a, const Loop& b) {
-      return std::tuple(a.face, first_of[a.region], a.area < 0, a.darts.front()) <
-             std::tuple(b.face, first_of[b.region], b.area < 0, b.darts.front());
-    });
+    using Key = std::tuple<FaceId, std::uint32_t, bool, std::uint32_t>;  // the last one tells any two apart
+    std::vector<std::pair<Key, std::uint32_t>> order;
+    order.reserve(loops_.size());
+    for (std::uint32_t i = 0; i < loops_.size(); ++i) {
+      const Loop& loop = loops_[i];
+      order.push_back({{loop.face, first_of[loop.region], loop.area < 0, loop.darts.front()}, i});
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Loop> sorted;
+    sorted.reserve(loops_.size());
+    for (const auto& [key, i] : order) sorted.push_back(std::move(loops_[i]));
+    loops_ = std::move(sorted);
   }
 
   // ---- areas, in the frame of the input face ----
@@ -155,13 +165,14 @@ class PieceMaker {
     const Skeleton& f = s_.facets[dart.facet];
     const auto& arc = f.tessellation->arcs[dart.arc];
     if (arc.tangent) return straight_area(from, to);
+    if (!std::isnan(arc_area_[dart.twin])) return -arc_area_[dart.twin];  // the same arc the other way
     const double unit = frame_in<NT>(*f.waves, 0).length.mid();
     const auto &mine = site_in<NT>(*f.waves, arc.left, 0), &other = site_in<NT>(*f.waves, arc.right, 0);
     const auto focus = map(mine.image), other_focus = map(other.image);
     const double area =
         conic_area({focus.x.mid(), focus.y.mid()}, mine.weight.mid() * unit, {other_focus.x.mid(), other_focus.y.mid()},
                    other.weight.mid() * unit, dart.site == arc.left ? from : to, dart.site == arc.left ? to : from);
-    return dart.site == arc.left ? area : -area;
+    return arc_area_[d] = dart.site == arc.left ? area : -area;
   }
 
   // ---- faces and pieces ----
@@ -252,6 +263,7 @@ class PieceMaker {
   Diagram& d_;
   std::vector<std::uint32_t> next_, region_;
   std::vector<Loop> loops_;
+  std::vector<double> arc_area_;  // per dart of an arc, once known
   std::optional<FaceMap<NT>> map_;
   std::uint32_t mapped_ = kNone;
   std::vector<std::uint32_t> link_of_;  // per dart
@@ -387,10 +399,7 @@ std::int64_t euler_of_reached(const DiagramInput& in, const Subdivision& s) {
   return euler;
 }
 
-}  // namespace
-
-void check_euler(const DiagramInput& in, const Subdivision& s, const Chains& chains) {
-  const EulerCount count(in, s);
+void check_euler(const EulerCount& count, const DiagramInput& in, const Subdivision& s, const Chains& chains) {
   const std::int64_t surface = euler_of_reached(in, s);
   if (count.of_surface != surface) throw InternalError("the subdivision does not have the Euler characteristic of the surface");
   std::int64_t sum = 0;
@@ -410,15 +419,21 @@ void check_euler(const DiagramInput& in, const Subdivision& s, const Chains& cha
                         std::to_string(surface));
 }
 
-void make_cells(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs,
-                Diagram& diagram) {
-  diagram.cells.resize(in.sources.size());
+}  // namespace
+
+void count_cells(const DiagramInput& in, const Subdivision& s, const Chains& chains, bool check, Diagram& diagram) {
   const EulerCount count(in, s);
+  if (check) check_euler(count, in, s, chains);
+  diagram.cells.resize(in.sources.size());
   for (SourceId i = 0; i < in.sources.size(); ++i) {
     diagram.cells[i].source = i;
     diagram.cells[i].hidden = in.sources[i].hidden;
     diagram.cells[i].euler = count.of_source[i];
   }
+}
+
+void make_cells(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs,
+                Diagram& diagram) {
   PieceMaker(in, s, point_of, link_arcs, diagram).run();
 }
 

@@ -13,13 +13,12 @@ struct LinkArcs {
   std::vector<std::uint8_t> reversed;  ///< per link: the arc runs against it
 };
 
-/// Fills face_label, pieces, boundary_facets, cells (euler, area; not neighbours), shared.
-/// `point_of`: per place its point, or kNone.
+/// Fills cells (source, hidden, euler). With `check`, throws InternalError unless  characteristic of the surface = sum over label sets of that of
+/// their closed regions + open chains - sum over ends of chains of (label sets there - 1).
+void count_cells(const DiagramInput& in, const Subdivision& s, const Chains& chains, bool check, Diagram& diagram);
+
+/// Fills face_label, pieces, boundary_facets, the areas of the cells, shared. `point_of`: per place its point, or kNone. Pre: count_cells.
 void make_cells(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs,
                 Diagram& diagram);
-
-/// Throws InternalError unless  characteristic of the surface = sum over label sets of that of their closed regions + open chains
-/// - sum over ends of chains of (label sets there - 1).
-void check_euler(const DiagramInput& in, const Subdivision& s, const Chains& chains);
 
 }  // namespace gvd::kernel::subdivision

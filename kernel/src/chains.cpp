@@ -113,14 +113,19 @@ class Tracer {
   /// the ends of the edge that the facets share. Round a vertex that is not flat no plane shows both arcs: images on one side are
   /// turned against the other's.
   bool proved_different(std::uint32_t p, DirectedLink in, DirectedLink out, std::size_t side) const {
-    using NT = FacetWaves::DD;
-    using predicates::operator-;
     const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];
     const Place& place = s_.places[p];
     if (s_.facets[a.facet].waves == nullptr || s_.facets[b.facet].waves == nullptr) return false;
     FacetWaves &wa = *s_.facets[a.facet].waves, &wb = *s_.facets[b.facet].waves;
     if (wa.sites[a.site].root != wb.sites[b.site].root) return true;
     if (place.kind == Place::Kind::vertex) return !is_flat(s_.facets[a.facet], place.vertex);
+    return other_distances<FacetWaves::F>(wa, a.site, wb, b.site) || other_distances<FacetWaves::DD>(wa, a.site, wb, b.site);
+  }
+
+  /// Whether two images of one root are certainly at different distances from an end of the edge that the facets share.
+  template <class NT>
+  static bool other_distances(FacetWaves& wa, std::uint32_t a, FacetWaves& wb, std::uint32_t b) {
+    using predicates::operator-;
     const auto square_from = [](FacetWaves& waves, std::uint32_t site, VertexId v) {
       const auto k = static_cast<std::size_t>(std::find(waves.corner.begin(), waves.corner.end(), v) - waves.corner.begin());
       const auto& frame = waves.frame(NT());
@@ -128,7 +133,7 @@ class Tracer {
     };
     for (const VertexId v : wa.corner) {
       if (std::find(wb.corner.begin(), wb.corner.end(), v) == wb.corner.end()) continue;
-      const auto sign = maybe_sign(square_from(wa, a.site, v) - square_from(wb, b.site, v));
+      const auto sign = maybe_sign(square_from(wa, a, v) - square_from(wb, b, v));
       if (sign && *sign != robust::Sign::zero) return true;
     }
     return false;

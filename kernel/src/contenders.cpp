@@ -153,6 +153,7 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
   const auto heavier = [&](const auto& numbers) {
     return maybe_sign(numbers.sites[relay.site]->weight - numbers.sites[wave.site]->weight);
   };
+  if (predicates::certainly_apart(ladder.doubles()[wave.site], ladder.doubles()[relay.site])) return false;
   if (wave.root == relay.root || gap(ladder.filter()) || heavier(ladder.filter()) == Sign::negative) return false;
   if (waves_.is_own_relay(wave.site, relay.site) || waves_.is_own_relay(wave.cone_site[0], relay.site) ||
       waves_.is_own_relay(wave.cone_site[1], relay.site))

@@ -59,11 +59,45 @@ Stage climb(const HasExact& has_exact, const Attempt& attempt) {
   return Stage::undecided;
 }
 
+/// A facet in space and in the frame of its input face.
+template <class NT>
+struct FacetSpace {
+  FacetSpace(const DiagramInput& in, const Skeleton& facet, int bits)
+      : map(in.input, in.refined, facet.face, frame_in<NT>(*facet.waves, bits).apex, bits) {
+    for (std::uint32_t k = 0; k < 3; ++k) corner[k] = position_in<NT>(in.refined, in.refined.origin(3 * facet.face + k), bits);
+  }
+  FaceMap<NT> map;
+  std::array<std::array<NT, 3>, 3> corner;
+};
+
+/// Those in double-double are kept for the next point or arc of the same facet.
+class FacetSpaces {
+ public:
+  FacetSpaces(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {}
+
+  template <class NT, class Use>
+  auto with(std::uint32_t facet, int bits, const Use& use) {
+    if constexpr (std::is_same_v<NT, FacetWaves::DD>) {
+      if (facet_ != facet) last_.emplace(in_, s_.facets[facet], 0);
+      facet_ = facet;
+      return use(*last_);
+    } else {
+      return use(FacetSpace<NT>(in_, s_.facets[facet], bits));
+    }
+  }
+
+ private:
+  const DiagramInput& in_;
+  const Subdivision& s_;
+  std::uint32_t facet_ = kNone;
+  std::optional<FacetSpace<FacetWaves::DD>> last_;
+};
+
 class PointBuilder {
  public:
   PointBuilder(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {}
 
-  Stage build(std::uint32_t p, DiagramPoint& point) const {
+  Stage build(std::uint32_t p, DiagramPoint& point, FacetSpaces& spaces) const {
     const Place& place = s_.places[p];
     if (place.kind == Place::Kind::vertex) {
       at_vertex(place, point);
@@ -76,16 +110,15 @@ class PointBuilder {
     const auto has_exact = [&] {
       return facet_has_exact(*facet.waves, {node.defining[0], node.defining[1], node.defining[2], node.ray});
     };
-    return climb(has_exact, [&]<class NT>(const NT&, int bits) { return accept(numbers<NT>(place, facet, bits), point); });
+    return climb(has_exact, [&]<class NT>(const NT&, int bits) {
+      return spaces.with<NT>(place.facet, bits, [&](const FacetSpace<NT>& space) { return accept(numbers(space, place, facet, bits), point); });
+    });
   }
 
  private:
   template <class NT>
-  PointNumbers<NT> numbers(const Place& place, const Skeleton& facet, int bits) const {
-    const auto& frame = frame_in<NT>(*facet.waves, bits);
-    const FaceMap<NT> map(in_.input, in_.refined, facet.face, frame.apex, bits);
-    std::array<std::array<NT, 3>, 3> corner;
-    for (std::uint32_t k = 0; k < 3; ++k) corner[k] = position_in<NT>(in_.refined, in_.refined.origin(3 * facet.face + k), bits);
+  static PointNumbers<NT> numbers(const FacetSpace<NT>& space, const Place& place, const Skeleton& facet, int bits) {
+    const auto& [map, corner] = space;
     PointNumbers<NT> result;
     const auto& node = facet.tessellation->nodes[place.node];
     if (node.kind == FacetTessellation::Node::Kind::side) {  // two corners only: what they have in common stays exact
@@ -137,17 +170,18 @@ class PointBuilder {
   const Subdivision& s_;
 };
 
-/// Calls `work(items of one owner)` for each owner, in parallel; `owner[i]` is that of item i.
+/// Calls `work(item, spaces)` for the items of each owner, in parallel; `owner[i]` is that of item i.
 template <class Work>
-void for_each_owner(const std::vector<std::uint32_t>& owner, std::size_t owners, Work&& work) {
+void for_each_owner(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& owner, std::size_t owners, Work&& work) {
   std::vector<std::uint32_t> start(owners + 1, 0), items(owner.size());
   for (const std::uint32_t o : owner) ++start[o + 1];
   for (std::size_t o = 0; o < owners; ++o) start[o + 1] += start[o];
   std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
   for (std::uint32_t i = 0; i < owner.size(); ++i) items[fill[owner[i]]++] = i;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, owners, 16), [&](const tbb::blocked_range<std::size_t>& range) {
+    FacetSpaces spaces(in, s);
     for (std::size_t o = range.begin(); o < range.end(); ++o)
-      for (std::uint32_t k = start[o]; k < start[o + 1]; ++k) work(items[k]);
+      for (std::uint32_t k = start[o]; k < start[o + 1]; ++k) work(items[k], spaces);
   });
 }
 
@@ -161,7 +195,7 @@ class ArcBuilder {
     std::sort(start_.begin(), start_.end());
   }
 
-  void build(DirectedLink link, Arc& arc) const {
+  void build(DirectedLink link, Arc& arc, FacetSpaces& spaces) const {
     const Dart* beside[2] = {&s_.darts[dart_beside(s_, link, 0)], &s_.darts[dart_beside(s_, link, 1)]};
     const std::size_t low =
         in_.refined.input_face(s_.facets[beside[0]->facet].face) <= in_.refined.input_face(s_.facets[beside[1]->facet].face) ? 0
@@ -174,15 +208,16 @@ class ArcBuilder {
     const FacetSite &l = left.sites[beside[0]->site], &r = right.sites[beside[1]->site];
     arc.labels = {l.labels, r.labels};
     arc.root = {l.root, r.root};
-    climb([] { return false; }, [&]<class NT>(const NT&, int bits) { return numbers<NT>(beside, home, arc, bits); });
+    climb([] { return false; }, [&]<class NT>(const NT&, int bits) {
+      return spaces.with<NT>(home.facet, bits, [&](const FacetSpace<NT>& space) { return numbers(space.map, beside, home, arc, bits); });
+    });
   }
 
  private:
   template <class NT>
-  bool numbers(const Dart* const (&beside)[2], const Dart& home, Arc& arc, int bits) const {
+  bool numbers(const FaceMap<NT>& map, const Dart* const (&beside)[2], const Dart& home, Arc& arc, int bits) const {
     const Skeleton& facet = s_.facets[home.facet];
     const auto& frame = frame_in<NT>(*facet.waves, bits);
-    const FaceMap<NT> map(in_.input, in_.refined, facet.face, frame.apex, bits);
     std::array<NT, 2> weight;
     bool sharp = true;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -264,7 +299,8 @@ std::vector<DiagramPoint> construct_points(const DiagramInput& in, const Subdivi
     owner[i] = facet == kNone ? static_cast<std::uint32_t>(s.facets.size()) : facet;
   }
   const PointBuilder builder(in, s);
-  for_each_owner(owner, s.facets.size() + 1, [&](std::uint32_t i) { stage[i] = builder.build(places[i], points[i]); });
+  for_each_owner(in, s, owner, s.facets.size() + 1,
+                 [&](std::uint32_t i, FacetSpaces& spaces) { stage[i] = builder.build(places[i], points[i], spaces); });
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (stage[i] == Stage::undecided)
       predicates::undecided(decisions, Predicate::rounding,
@@ -282,11 +318,12 @@ void construct_arcs(const DiagramInput& in, const Subdivision& s, const std::vec
     owner[i] = left.facet == right.facet ? left.facet : static_cast<std::uint32_t>(s.facets.size());
   }
   const ArcBuilder builder(in, s);
-  for_each_owner(owner, s.facets.size() + 1, [&](std::uint32_t i) {
-    if (owner[i] < s.facets.size()) builder.build(links[i], arcs[i]);
+  for_each_owner(in, s, owner, s.facets.size() + 1, [&](std::uint32_t i, FacetSpaces& spaces) {
+    if (owner[i] < s.facets.size()) builder.build(links[i], arcs[i], spaces);
   });
+  FacetSpaces spaces(in, s);
   for (std::uint32_t i = 0; i < links.size(); ++i)
-    if (owner[i] == s.facets.size()) builder.build(links[i], arcs[i]);
+    if (owner[i] == s.facets.size()) builder.build(links[i], arcs[i], spaces);
 }
 
 }  // namespace gvd::kernel::subdivision

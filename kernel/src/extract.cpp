@@ -23,7 +23,7 @@ class Extraction {
     chains_ = trace(in_, s_, all_decided(decisions_));
     for (const std::string& doubt : chains_.doubts) predicates::undecided(decisions_, predicates::Predicate::location, doubt);
     list_undecided_faces();
-    if (all_decided(decisions_) && d_.undecided_faces.empty()) check_euler(in_, s_, chains_);
+    count_cells(in_, s_, chains_, all_decided(decisions_) && d_.undecided_faces.empty(), d_);
     d_.label_sets = in_.label_sets;
     keep_one_place_of_closed_chains();
     make_points();

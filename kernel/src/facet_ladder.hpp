@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "gvd/kernel/facet_numbers.hpp"
+#include "gvd/predicates/double_wave.hpp"
 #include "gvd/predicates/predicate.hpp"
 
 namespace gvd::kernel {
@@ -21,10 +22,16 @@ class FacetLadder {
 
   FacetLadder(FacetWaves& waves, predicates::Decisions& decisions) : waves_(waves), decisions_(decisions) {
     load_numbers(waves_, 0, filter_);
+    doubles_.reserve(filter_.sites.size());
+    for (const auto* site : filter_.sites) doubles_.push_back(predicates::double_wave(*site));
   }
 
   const FacetNumbers<F>& filter() const { return filter_; }
-  void count(predicates::Predicate p, robust::Stage stage) { predicates::count(decisions_, p, stage); }
+  /// The sites in plain doubles.
+  const std::vector<predicates::DoubleWave>& doubles() const { return doubles_; }
+  void count(predicates::Predicate p, robust::Stage stage, std::uint32_t times = 1) {
+    decisions_.count(static_cast<std::size_t>(p), stage, times);
+  }
 
   /// `test(numbers)` gives an optional answer from FacetNumbers of any number type; the first answer counts.
   /// Without any, the decision is listed (`describe()` names it), failed() holds from now on, and the result is empty.
@@ -94,6 +101,7 @@ class FacetLadder {
   FacetWaves& waves_;
   predicates::Decisions& decisions_;
   FacetNumbers<F> filter_;
+  std::vector<predicates::DoubleWave> doubles_;
   /// Hardly any facet needs them, and even empty ones cost allocations.
   struct BeyondFilter {
     FacetNumbers<DD> double_double;

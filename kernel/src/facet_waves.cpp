@@ -31,8 +31,8 @@ std::uint64_t path_along_edge(VertexId root) { return (std::uint64_t{1} << 32) |
 
 }  // namespace
 
-FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f)
-    : resolution_(resolution), field_(resolution.field()), kinds_(kinds) {
+FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f, const UnfoldedWindows<double>* unfolded)
+    : resolution_(resolution), field_(resolution.field()), kinds_(kinds), unfolded_(unfolded) {
   const Frames& frames = resolution.frames();
   const Mesh& mesh = frames.mesh();
   face = f;
@@ -66,7 +66,12 @@ void FieldWaves::add_corner(std::uint8_t k) {
       narrowed(resolution_.distance(corner[k])) / predicates::enclosed_length(frames(3 * face), predicates::unit<double>(0));
   sites.push_back(site);
   sites_.push_back(numbers);
-  strips_.emplace_back();
+}
+
+const Strip& FieldWaves::strip(std::size_t i) const {
+  if (strips_.empty()) strips_.resize(sites.size(), {kNone, {}});
+  if (strips_[i].opposite == kNone) strips_[i] = strip_of(resolution_.frames().mesh(), field_, sites[i].window);
+  return strips_[i];
 }
 
 /// Sorts out the windows of one side as the propagation does, with all of them and the final distances at hand.
@@ -97,16 +102,15 @@ void FieldWaves::add_side(std::uint8_t side) {
 bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrival& arrival) const {
   const Frames& frames = resolution_.frames();
   if (field_.windows[window].dominated()) return false;
-  for (WindowId w = window; w != kNone; w = field_.windows[w].parent)
-    if (field_.windows[w].dead()) return false;
   const VertexId root = field_.windows[window].root;
   if (root == corner[side] || root == corner[(side + 1) % 3]) return false;  // the edge itself is the shorter way to its points
+  const UnfoldedWindows<double>::Entry* known = unfolded_ == nullptr ? nullptr : unfolded_->find(window);
+  arrival.unfolded = known != nullptr ? *known : UnfoldedWindows<double>(frames, field_).add(window);
+  if (arrival.unfolded.dead) return false;
   const EdgeFrame<double>& frame = frames(3 * face + side);
   const Ball<double> weight = narrowed(resolution_.distance(root));
   arrival.window = window;
-  arrival.strip = strip_of(frames.mesh(), field_, window);
-  arrival.at = unfold_double(frames, arrival.strip);
-  const Disc<double>&image = arrival.at.image, &cone0 = arrival.at.cone0, &cone1 = arrival.at.cone1;
+  const auto& [image, cone0, cone1] = arrival.unfolded.at;
   const predicates::Landing l0 = predicates::land(image.mid, cone0.mid, std::max(image.radius, cone0.radius));
   const predicates::Landing l1 = predicates::land(image.mid, cone1.mid, std::max(image.radius, cone1.radius));
   arrival.image = image.mid;
@@ -140,14 +144,13 @@ void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
   site.side = side;
   site.root = root;
   site.labels = resolution_.labels(root);
-  note_cone(site, arrival.strip, window);
+  note_cone(site, arrival.unfolded);
   const std::uint8_t opposite = static_cast<std::uint8_t>((side + 2) % 3);
   site.attains_corner[opposite] = resolution_.attains(window, corner[opposite]);
   site.path_to_corner[opposite] = path_through(window);
   const double unit = predicates::unit<double>(0);
-  sites_.push_back(make_site<double>(site, arrival.at, narrowed(resolution_.distance(root)), frames(3 * face), unit));
+  sites_.push_back(make_site<double>(site, arrival.unfolded.at, narrowed(resolution_.distance(root)), frames(3 * face), unit));
   sites.push_back(site);
-  strips_.push_back(std::move(arrival.strip));
 }
 
 /// The sides that a strip crosses, from its root on; each in the face that is left.
@@ -195,7 +198,7 @@ bool FieldWaves::enclose_only_flat(std::span<const HalfedgeId> a, std::span<cons
 
 bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   if (sites[left].root != sites[right].root || sites[left].window == kNone || sites[right].window == kNone) return false;
-  return enclose_only_flat(sides_of(strips_[left]), sides_of(strips_[right]));
+  return enclose_only_flat(sides_of(strip(left)), sides_of(strip(right)));
 }
 
 /// Both images in the frame of the side seen from behind, in which the window's is 1 - z.
@@ -206,8 +209,8 @@ bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
   if (!resolution_.have_equal_distances(a.root, b.root)) return false;
   const Frames& frames = resolution_.frames();
   const predicates::ProgramFace here = program_face(frames, face);
-  const predicates::StripProgram of_a = strip_program(frames, strips_[entering]);
-  predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(here, side) : strip_program(frames, strips_[other]);
+  const predicates::StripProgram of_a = strip_program(frames, strip(entering));
+  predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(here, side) : strip_program(frames, strip(other));
   if (b.window != kNone) of_b.cross(here, side, side == (b.side + 2) % 3);
   return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
          are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
@@ -225,15 +228,15 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
 bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
   const Mesh& mesh = resolution_.frames().mesh();
   const VertexId v = sites[relay].root;
-  const auto& steps = strips_[parent].steps;
+  const auto& steps = strip(parent).steps;
   std::size_t left = steps.size();
   WindowId w = sites[parent].window;
   if (sites[relay].window != kNone) {
-    const auto& own = strips_[relay].steps;
+    const auto& own = strip(relay).steps;
     if (own.size() >= left) return false;
     for (std::size_t i = own.size(); i-- > 0; w = field_.windows[w].parent)
       if (steps[--left].side != own[i].side) return false;
-    if (steps[--left].side != strips_[relay].opposite) return false;
+    if (steps[--left].side != strip(relay).opposite) return false;
     w = field_.windows[w].parent;
   }
   for (;; w = field_.windows[w].parent) {
@@ -280,8 +283,8 @@ std::optional<FieldWaves::Sides> FieldWaves::way_about(const Candidate& way, Ver
 /// The same where the parent's strip and the way through the relay have only flat vertices between them.
 bool FieldWaves::has_relay_beyond_flat(std::size_t parent, std::size_t relay) const {
   const VertexId v = sites[relay].root;
-  const Sides own = sides_of(strips_[parent]);
-  const Sides rest = sites[relay].window == kNone ? Sides{} : sides_of(strips_[relay]);
+  const Sides own = sides_of(strip(parent));
+  const Sides rest = sites[relay].window == kNone ? Sides{} : sides_of(strip(relay));
   const FaceId end = rest.empty() ? face : Mesh::face(rest.front());
   for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
     if (field_.candidates[c].via != sites[parent].root) continue;
@@ -295,48 +298,33 @@ bool FieldWaves::has_relay_beyond_flat(std::size_t parent, std::size_t relay) co
   return false;
 }
 
-/// Follows the strip once more for the names of the cone's vertices.
-void FieldWaves::note_cone(FacetSite& site, const Strip& strip, WindowId window) const {
+/// The names of the cone's vertices. A strip may turn about a vertex more than once in a lifetime: what bounds the cone is a corner of the facet
+/// only if no step since has left it.
+void FieldWaves::note_cone(FacetSite& site, const UnfoldedWindows<double>::Entry& unfolded) const {
   const Mesh& mesh = resolution_.frames().mesh();
-  std::array<bool, 2> known{false, false};
-  // A strip may turn about a vertex more than once in a lifetime: what bounds the cone is a corner of the facet only if no step
-  // since has left it.
-  std::array<bool, 2> at_corner{true, true};
+  WindowId first = site.window;
   for (std::size_t c = 0; c < 2; ++c) {
-    const bool turning_left = c == 0;
-    for (std::size_t i = strip.steps.size(); i-- > 0;) {
-      if (strip.steps[i].left == turning_left) continue;
-      at_corner[c] = strip.steps[i].bounds;
-      break;
+    const WindowId bound = unfolded.bound[c];
+    std::uint64_t path;
+    if (bound != kNone) {
+      site.cone[c] = mesh.apex(field_.windows[bound].halfedge());
+      site.attains_cone[c] = resolution_.attains(bound, site.cone[c]);
+      path = path_through(bound);
+    } else {
+      while (field_.windows[first].parent != kNone) first = field_.windows[first].parent;
+      const HalfedgeId h = field_.windows[first].halfedge();
+      site.cone[c] = c == 0 ? mesh.origin(h) : mesh.target(h);
+      site.attains_cone[c] = resolution_.attains_along_edge(site.root, site.cone[c]);
+      path = path_along_edge(site.root);
     }
-  }
-  const auto note_path = [&](std::size_t c, std::uint64_t path) {
     const std::size_t k = (site.side + c) % 3;
-    if (at_corner[c]) {
+    if (unfolded.bounds_edge[c]) {
       site.path_to_corner[k] = path;
       site.attains_corner[k] = site.attains_cone[c];
     } else if (std::find(corner.begin(), corner.end(), site.cone[c]) != corner.end()) {
       site.cone[c] = kNone;  // an earlier visit of the corner, unfolded to another place
       site.attains_cone[c] = false;
     }
-  };
-  WindowId w = window;
-  for (std::size_t i = strip.steps.size(); i-- > 0; w = field_.windows[w].parent) {
-    const predicates::StripStep& step = strip.steps[i];
-    const std::size_t c = step.left ? 1 : 0;
-    if (!step.bounds || known[c]) continue;
-    const WindowId parent = field_.windows[w].parent;
-    site.cone[c] = mesh.apex(field_.windows[parent].halfedge());
-    site.attains_cone[c] = resolution_.attains(parent, site.cone[c]);
-    note_path(c, path_through(parent));
-    known[c] = true;
-  }
-  const HalfedgeId first = mesh.twin(strip.opposite);
-  for (std::size_t c = 0; c < 2; ++c) {
-    if (known[c]) continue;
-    site.cone[c] = c == 0 ? mesh.origin(first) : mesh.target(first);
-    site.attains_cone[c] = resolution_.attains_along_edge(site.root, site.cone[c]);
-    note_path(c, path_along_edge(site.root));
   }
 }
 
@@ -411,9 +399,12 @@ const predicates::Site<FieldWaves::DD>& FieldWaves::site(std::size_t i, DD) {
   if (!p.dd_sites[i]) {
     const auto& first = resolution_.frames().in_double_double(3 * face);
     Unfolding<DoubleDouble> at;
-    if (sites[i].window != kNone) at = unfold_double_double(resolution_.frames(), strips_[i]);
-    p.dd_sites[i] = std::make_unique<predicates::Site<DD>>(
-        make_site<DoubleDouble>(sites[i], at, resolution_.distance(sites[i].root), first, predicates::unit<DoubleDouble>(0)));
+    if (sites[i].window != kNone) {
+      const auto* known = double_double_ == nullptr ? nullptr : double_double_->find(sites[i].window);
+      at = known != nullptr ? known->at : unfold_double_double(resolution_.frames(), strip(i));
+    }
+    p.dd_sites[i] = std::make_unique<predicates::Site<DD>>(make_site<DoubleDouble>(
+        sites[i], at, resolution_.distance(sites[i].root), first, predicates::unit<DoubleDouble>(0)));
   }
   return *p.dd_sites[i];
 }
@@ -424,7 +415,7 @@ const predicates::Site<FieldWaves::M>& FieldWaves::site(std::size_t i, M, int bi
   Precise::AtBits& cache = at_bits(bits);
   if (!cache.sites[i]) {
     Unfolding<Mpfr> at;
-    if (sites[i].window != kNone) at = unfold_mpfr(resolution_.frames(), strips_[i], bits, cache.frames);
+    if (sites[i].window != kNone) at = unfold_mpfr(resolution_.frames(), strip(i), bits, cache.frames);
     const auto& first = cache.frames(resolution_.frames(), 3 * face, bits);
     cache.sites[i] = std::make_unique<predicates::Site<M>>(
         make_site<Mpfr>(sites[i], at, resolution_.distance(sites[i].root, bits), first, predicates::unit<Mpfr>(bits)));
@@ -452,9 +443,9 @@ bool FieldWaves::exact_is_cheap() {
     known = true;
     for (std::size_t i = 0; i < sites.size() && *known; ++i) {
       if (sites[i].window == kNone) continue;
-      const Strip& strip = strips_[i];
-      known = is_here(strip.opposite) && std::all_of(strip.steps.begin(), strip.steps.end(),
-                                                     [&](const predicates::StripStep& step) { return is_here(step.side); });
+      const Strip& strip = this->strip(i);
+      known = is_here(strip.opposite) &&
+              std::all_of(strip.steps.begin(), strip.steps.end(), [&](const predicates::StripStep& step) { return is_here(step.side); });
     }
   }
   return *known;

@@ -9,6 +9,7 @@
 #include "gvd/kernel/facet.hpp"
 #include "gvd/kernel/resolution.hpp"
 #include "gvd/kernel/unfolding.hpp"
+#include "unfolded_windows.hpp"
 #include "window_interval.hpp"
 
 namespace gvd::kernel {
@@ -16,7 +17,8 @@ namespace gvd::kernel {
 /// The wave set of a facet, taken from the distance field. Numbers are made on demand and kept; used by one thread at a time.
 class FieldWaves final : public FacetWaves {
  public:
-  FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f);
+  /// `unfolded`: windows that are known already; it may lack any.
+  FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f, const UnfoldedWindows<double>* unfolded = nullptr);
 
   const predicates::FacetFrame<F>& frame(F) override { return frame_; }
   const predicates::Site<F>& site(std::size_t i, F) override { return sites_[i]; }
@@ -31,6 +33,8 @@ class FieldWaves final : public FacetWaves {
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
   bool have_one_image(std::size_t left, std::size_t right) override;
   bool are_mirror_images(std::size_t entering, std::size_t other) override;
+  /// Windows in double-double that are known already; it may lack any. Null: none.
+  void use(const UnfoldedWindows<robust::DoubleDouble>* unfolded) { double_double_ = unfolded; }
   /// Gives back what only the MPFR stage needs.
   void forget_frames();
 
@@ -41,8 +45,7 @@ class FieldWaves final : public FacetWaves {
   /// A window that may be nearest somewhere in the facet, while they are sorted out.
   struct Arrival : WindowInterval {
     WindowId window;
-    predicates::Strip strip;
-    predicates::Unfolding<double> at;
+    UnfoldedWindows<double>::Entry unfolded;
   };
   void add_side(std::uint8_t side);
   bool arrive(WindowId window, std::uint8_t side, Arrival& arrival) const;
@@ -55,7 +58,8 @@ class FieldWaves final : public FacetWaves {
   bool has_relay_beyond_flat(std::size_t parent, std::size_t relay) const;
   std::optional<Sides> turn_about(HalfedgeId first, bool left, FaceId end) const;
   std::optional<Sides> way_about(const Candidate& way, VertexId v, bool left, FaceId end) const;
-  void note_cone(FacetSite& site, const predicates::Strip& strip, WindowId window) const;
+  void note_cone(FacetSite& site, const UnfoldedWindows<double>::Entry& unfolded) const;
+  const predicates::Strip& strip(std::size_t i) const;
   template <class T>
   predicates::Site<robust::Ball<T>> make_site(const FacetSite& site, const predicates::Unfolding<T>& at, const robust::Ball<T>& weight,
                                               const predicates::EdgeFrame<T>& first, double unit) const;
@@ -69,7 +73,9 @@ class FieldWaves final : public FacetWaves {
   const std::vector<VertexKind>& kinds_;
   predicates::FacetFrame<F> frame_;
   std::vector<predicates::Site<F>> sites_;
-  std::vector<predicates::Strip> strips_;
+  mutable std::vector<predicates::Strip> strips_;  ///< made on demand
+  const UnfoldedWindows<double>* unfolded_;
+  const UnfoldedWindows<robust::DoubleDouble>* double_double_ = nullptr;
 
   /// What only few facets need.
   struct Precise {

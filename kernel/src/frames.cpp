@@ -56,10 +56,10 @@ std::array<T, 3> Frames::side(FaceId f, int k, int bits) const {
     const Point &p = mesh_.point(a), &q = mesh_.point(b);
     for (std::size_t i = 0; i < 3; ++i) {
       if constexpr (std::is_same_v<T, double>) {
-        result[i] = std::ldexp(q[i] - p[i], -scale_);
+        result[i] = robust::times_power_of_two(q[i] - p[i], -scale_);
       } else if constexpr (std::is_same_v<T, DoubleDouble>) {
         const DoubleDouble d = robust::two_sum(q[i], -p[i]);
-        result[i] = {std::ldexp(d.hi, -scale_), std::ldexp(d.lo, -scale_)};
+        result[i] = {robust::times_power_of_two(d.hi, -scale_), robust::times_power_of_two(d.lo, -scale_)};
       }
     }
     return result;

@@ -13,8 +13,8 @@ namespace gvd::kernel {
 /// Direct window growth: closes the occurrences of the outline one after the other until no bisector is open.
 class Growth {
  public:
-  Growth(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder, FacetTessellation& result)
-      : waves_(waves), contenders_(contenders), ladder_(ladder), result_(result), vertices_(waves, contenders, ladder) {}
+  Growth(FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter, FacetLadder& ladder, FacetTessellation& result)
+      : waves_(waves), contenders_(contenders), ladder_(ladder), result_(result), vertices_(waves, contenders, filter, ladder) {}
 
   /// Turns the outline's list into arcs and vertices. On failure `ladder.failed()`.
   void run(const std::vector<Occurrence>& outline);

@@ -1,8 +1,7 @@
 #include "outline.hpp"
 
 #include <algorithm>
-
-#include "gvd/predicates/filter_error.hpp"
+#include <cmath>
 
 namespace gvd::kernel {
 namespace {
@@ -32,28 +31,7 @@ void OutlineWalk::enter(std::uint32_t node, std::uint32_t contender) {
   list_.push_back({contender, Piece::kNoNode});
 }
 
-/// The side of a boundary ray is linear along a side of the facet, so its upper bounds at the corners bound it in between.
-void OutlineWalk::find_stretches() {
-  const auto& numbers = ladder_.filter();
-  stretches_.resize(contenders_.size());
-  for (std::uint32_t i = 0; i < contenders_.size(); ++i) {
-    if (!contenders_[i].has_cone) continue;
-    for (std::size_t end = 0; end < 2; ++end) {
-      std::array<double, 3> most;
-      for (std::size_t k = 0; k < 3; ++k) most[k] = cone_side(numbers, contenders_[i], end, numbers.side[k].origin).upper();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double from = most[k], to = most[(k + 1) % 3];
-        Stretch& stretch = stretches_[i][k];
-        if (from < 0 && to < 0) stretch = {2, -1};
-        if (from < 0 && to >= 0) stretch.low = std::max(stretch.low, predicates::below_zero_of(from, to));
-        if (from >= 0 && to < 0) stretch.high = std::min(stretch.high, predicates::above_zero_of(from, to));
-      }
-    }
-  }
-}
-
 std::vector<Occurrence> OutlineWalk::walk() {
-  find_stretches();
   std::array<std::vector<std::uint32_t>, 3> at_corner;
   for (std::size_t c = 0; c < 3; ++c) {
     at_corner[c] = corners_.sequence(c);
@@ -107,14 +85,40 @@ bool OutlineWalk::walk_side(std::size_t side, std::uint32_t last) {
   }
 }
 
+/// The only wave that takes over from `from` first after `previous`, or none, if plain doubles can tell.
+std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::filtered_events(std::size_t side, std::uint32_t from,
+                                                                            const std::optional<Event>& previous) {
+  std::optional<OvertakingFilter::Passed> passed;
+  if (previous) {
+    if (previous->to != from || previous->from == from) return std::nullopt;  // no plain overtaking
+    if (!previous->filtered || previous->filtered->existence != Existence::proved) return std::nullopt;
+    passed = {previous->from, {previous->filtered->t.lower(), previous->filtered->t.upper()}};
+  }
+  const auto next = overtaking_.next(side, from, passed);
+  if (!next) return std::nullopt;
+  ladder_.count(Predicate::edge_tie, robust::Stage::filter, next->decisions);
+  std::vector<Event> events;
+  if (!next->exists) return events;
+  const double middle = 0.5 * (next->at.low + next->at.high), radius = (next->at.high - next->at.low) * (0.5 + 0x1p-40) + 0x1p-54;
+  Event event{from, next->to, FacetTessellation::kNoSite, 0, false, false,
+              predicates::SideTie<FacetWaves::F>{Existence::proved, FacetWaves::F(middle, radius)}};
+  if (next->ray) {
+    event.ray = contenders_[next->ray->parent].cone_site[next->ray->end];
+    event.ray_end = next->ray->end;
+  }
+  events.push_back(event);
+  return events;
+}
+
 /// The waves that take over from `from` first after `previous`; several if they do so at the same point.
 std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::size_t side, std::uint32_t from,
                                                                         const std::optional<Event>& previous) {
+  if (auto filtered = filtered_events(side, from, previous)) return filtered;
   std::vector<Event> first;
   const double low = previous && previous->filtered ? previous->filtered->t.lower() : 0;
   double high = 1;
   for (std::uint32_t to = 0; to < contenders_.size(); ++to) {
-    const Stretch& stretch = stretches_[to][side];
+    const FacetFilter::Stretch& stretch = filter_[to].stretch[side];
     if (to == from || stretch.high < low || stretch.low > high) continue;
     std::optional<Event> event = candidate(side, from, to);
     if (!event) {
@@ -143,6 +147,13 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
   for (std::size_t end = 0; contenders_[from].has_cone && end < 2; ++end) {
     const std::uint32_t ray = contenders_[from].cone_site[end];
     if (!events.empty() && events[0].ray == ray && events[0].ray_end == end) continue;
+    if (!events.empty() && events[0].filtered && events[0].filtered->existence == Existence::proved) {
+      const auto& t = events[0].filtered->t;  // between its bounds the ray's side is linear
+      if (filter_.cone_side(side, from, end, t.lower()).positive() && filter_.cone_side(side, from, end, t.upper()).positive()) {
+        ladder_.count(Predicate::edge_tie, robust::Stage::filter);
+        continue;
+      }
+    }
     const MaybeSign seen = ladder_.decide(
         Predicate::edge_tie,
         [&](const auto& numbers) -> MaybeSign {
@@ -173,26 +184,16 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
 
 /// What would have to happen for `to` to take over from `from` on the side, if identity does not exclude it.
 std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::uint32_t from, std::uint32_t to) {
-  const int leaves = contenders_.tangent_end(from, to), arrives = contenders_.tangent_end(to, from);
-  if (leaves == Contenders::kNotTangent && arrives == Contenders::kNotTangent) {
+  if (!contenders_.tangent(from, to)) {
     if (contenders_.eclipses(from, to) || contenders_.eclipses(to, from)) return std::nullopt;
     if (const auto event = contact(side, from, to); event || ladder_.failed()) return event;
     const Event event{from, to, FacetTessellation::kNoSite, 0, false, false, std::nullopt};
     if (tie_is_at_corner(side, event)) return std::nullopt;
     return event;
   }
-  // A parent wins up to its boundary ray. Along the side over which it comes in, the cone begins at ray 0 and ends at ray 1; along
-  // the others the other way round.
-  const bool relay_takes_over = leaves != Contenders::kNotTangent;
-  const std::uint32_t parent = relay_takes_over ? from : to, relay = relay_takes_over ? to : from;
-  const int end = relay_takes_over ? leaves : arrives;
-  const bool last_ray = end == (contenders_[parent].enters_over(side) ? 1 : 0);
-  if (last_ray != relay_takes_over) return std::nullopt;
-  const std::uint8_t corner = contenders_[relay].corner;
-  if (corner == side || corner == (side + 1) % 3) return std::nullopt;  // the ray meets this side in its corner only
-  return Event{
-      from,  to,          contenders_[parent].cone_site[static_cast<std::size_t>(end)], static_cast<std::uint8_t>(end), false,
-      false, std::nullopt};
+  const auto ray = tangent_event(contenders_, side, from, to);
+  if (!ray) return std::nullopt;
+  return Event{from, to, contenders_[ray->parent].cone_site[ray->end], ray->end, false, false, std::nullopt};
 }
 
 /// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it

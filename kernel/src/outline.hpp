@@ -5,7 +5,9 @@
 
 #include "contenders.hpp"
 #include "corner_sequence.hpp"
+#include "facet_filter.hpp"
 #include "gvd/kernel/tessellation.hpp"
+#include "overtaking_filter.hpp"
 
 namespace gvd::kernel {
 
@@ -18,8 +20,14 @@ struct Occurrence {
 /// Walks round the facet: what lies just inside it along its outline.
 class OutlineWalk {
  public:
-  OutlineWalk(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder, FacetTessellation& result)
-      : waves_(waves), contenders_(contenders), ladder_(ladder), corners_(waves, contenders, ladder), result_(result) {}
+  OutlineWalk(FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter, FacetLadder& ladder, FacetTessellation& result)
+      : waves_(waves),
+        contenders_(contenders),
+        filter_(filter),
+        overtaking_(filter, contenders),
+        ladder_(ladder),
+        corners_(waves, contenders, ladder),
+        result_(result) {}
 
   /// The cyclic list of occurrences, counter-clockwise; a single one has no node. Fills result.outline and the nodes of corners and sides.
   /// Empty on failure.
@@ -36,17 +44,13 @@ class OutlineWalk {
     bool contact = false;
     std::optional<predicates::SideTie<FacetWaves::F>> filtered;  ///< its parameter in the filter's numbers, once asked for
   };
-  /// Where a contender may be seen along a side: certainly nowhere else.
-  struct Stretch {
-    double low = 0, high = 1;
-  };
   enum class Answer { no, yes, on_ray };
 
   bool pass_corner(std::size_t c, const std::vector<std::uint32_t>& sequence);
   bool walk_side(std::size_t side, std::uint32_t last);
   bool pass_event(std::size_t side, const std::vector<Event>& tied);
   std::optional<std::vector<Event>> next_events(std::size_t side, std::uint32_t from, const std::optional<Event>& previous);
-  void find_stretches();
+  std::optional<std::vector<Event>> filtered_events(std::size_t side, std::uint32_t from, const std::optional<Event>& previous);
   std::optional<Event> candidate(std::size_t side, std::uint32_t from, std::uint32_t to);
   std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
@@ -67,10 +71,11 @@ class OutlineWalk {
 
   FacetWaves& waves_;
   const Contenders& contenders_;
+  const FacetFilter& filter_;
+  OvertakingFilter overtaking_;
   FacetLadder& ladder_;
   CornerOrder corners_;
   FacetTessellation& result_;
-  std::vector<std::array<Stretch, 3>> stretches_;  // per contender and side
   std::vector<Occurrence> list_;
 };
 

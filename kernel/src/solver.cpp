@@ -178,6 +178,30 @@ class Solver {
   /// Where several sources share a region, its border may run along edges; so facets with such a label set are examined, too.
   bool is_one_source(LabelSetId labels) const { return labels != kNone && s_.label_sets[labels].size() == 1; }
 
+  /// Neighbouring facets share most of their strips.
+  UnfoldedWindows<double> unfold_windows(const std::vector<FaceId>& faces) const {
+    UnfoldedWindows<double> unfolded(*s_.frames, s_.field);
+    for (const FaceId f : faces)
+      for (HalfedgeId h = 3 * f; h < 3 * f + 3; ++h)
+        for (WindowId w = s_.field.first_window[h]; w != kNone; w = s_.field.windows[w].next)
+          if (!s_.field.windows[w].dominated()) unfolded.add(w);
+    return unfolded;
+  }
+
+  /// The windows beside GVD arcs, whose points are wanted correctly rounded.
+  UnfoldedWindows<robust::DoubleDouble> unfold_beside_arcs() const {
+    UnfoldedWindows<robust::DoubleDouble> unfolded(*s_.frames, s_.field);
+    for (const BoundaryFacet& facet : facets_) {
+      const auto& sites = facet.waves->sites;
+      for (const auto& arc : facet.tessellation->arcs) {
+        if (sites[arc.left].labels == sites[arc.right].labels) continue;
+        for (const std::uint32_t site : {arc.left, arc.right})
+          if (sites[site].window != kNone) unfolded.add(sites[site].window);
+      }
+    }
+    return unfolded;
+  }
+
   bool tessellate_facets() {
     const FaceId n = s_.refined.face_count();
     face_labels_.assign(n, kNone);
@@ -189,8 +213,9 @@ class Solver {
     }
     waves_.resize(several.size());
     tessellations_.resize(several.size());
+    const UnfoldedWindows<double> unfolded = unfold_windows(several);
     const bool go_on = in_parallel(several.size(), [&](std::size_t i, predicates::Decisions& decisions) {
-      auto waves = std::make_unique<FieldWaves>(*s_.resolution, s_.kinds, several[i]);
+      auto waves = std::make_unique<FieldWaves>(*s_.resolution, s_.kinds, several[i], &unfolded);
       face_labels_[several[i]] = waves->only_label();
       if (is_one_source(face_labels_[several[i]])) return;
       tessellations_[i] = tessellate(*waves, decisions);
@@ -208,11 +233,16 @@ class Solver {
     for (SourceId i = 0; i < sources.size(); ++i)
       sources[i] = {s_.where.vertex[i], s_.where.weight[i], std::binary_search(s_.hidden.begin(), s_.hidden.end(), i)};
     const auto origin = [&](WindowId w) { return WindowOrigin{s_.field.windows[w].parent, s_.field.windows[w].halfedge()}; };
+    const UnfoldedWindows<robust::DoubleDouble> unfolded = unfold_beside_arcs();
+    for (const auto& waves : waves_)
+      if (waves) waves->use(&unfolded);
     tbb::task_arena arena(static_cast<int>(std::max(1u, options_.threads)));
     arena.execute([&] {
       s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, origin},
                            s_.decisions);
     });
+    for (const auto& waves : waves_)
+      if (waves) waves->use(nullptr);
     return true;
   }
 

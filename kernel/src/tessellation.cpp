@@ -35,8 +35,9 @@ FacetTessellation tessellate(FacetWaves& waves, predicates::Decisions& decisions
   FacetTessellation result;
   FacetLadder ladder(waves, decisions);
   const Contenders contenders(waves, ladder);
-  const std::vector<Occurrence> outline = OutlineWalk(waves, contenders, ladder, result).walk();
-  if (!ladder.failed()) Growth(waves, contenders, ladder, result).run(outline);
+  const FacetFilter filter(contenders, ladder);
+  const std::vector<Occurrence> outline = OutlineWalk(waves, contenders, filter, ladder, result).walk();
+  if (!ladder.failed()) Growth(waves, contenders, filter, ladder, result).run(outline);
   if (ladder.failed()) {
     result = {};
     result.undecided = true;

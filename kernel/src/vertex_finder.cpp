@@ -175,7 +175,28 @@ bool BisectorVertices::run_tests(const FacetNumbers<NT>& numbers, Stage stage, c
   return true;
 }
 
+/// False if doubles cannot tell.
+bool BisectorVertices::examine_in_doubles(const Triple& t, Found& found) {
+  std::optional<VertexFilter::OnRay> on_ray;
+  if (t.on_ray) on_ray = {t.parent, t.pivot, t.other, t.ray_end};
+  const VertexFilter::Judgement judged = filter_.judge(t.waves, on_ray, rivals_);
+  if (!judged.certain) return false;
+  ladder_.count(Predicate::bisector_vertex, Stage::filter);
+  ladder_.count(Predicate::location, Stage::filter, judged.sides);
+  ladder_.count(Predicate::cone_membership, Stage::filter, judged.rays);
+  ladder_.count(Predicate::conflict, Stage::filter, judged.rivals);
+  if (!judged.exists) return true;
+  found.exists = true;
+  found.node = node_of(t);
+  found.open = {t.waves[0], t.waves[1], t.waves[2]};
+  for (const std::uint32_t wave : found.open) found.node.sites.push_back(contenders_[wave].site);
+  found.node.x = FacetWaves::F(judged.at.p.x, judged.at.radius);
+  found.node.y = FacetWaves::F(judged.at.p.y, judged.at.radius);
+  return true;
+}
+
 void BisectorVertices::examine(const Triple& t, Found& found) {
+  if (examine_in_doubles(t, found)) return;
   pending_.clear();
   ties_.clear();
   on_boundary_ray_ = false;

@@ -8,6 +8,7 @@
 #include "contenders.hpp"
 #include "ring.hpp"
 #include "gvd/kernel/node_point.hpp"
+#include "vertex_filter.hpp"
 
 namespace gvd::kernel {
 
@@ -28,8 +29,8 @@ class BisectorVertices {
     }
   };
 
-  BisectorVertices(FacetWaves& waves, const Contenders& contenders, FacetLadder& ladder)
-      : waves_(waves), contenders_(contenders), ladder_(ladder) {}
+  BisectorVertices(FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter, FacetLadder& ladder)
+      : waves_(waves), contenders_(contenders), filter_(filter, contenders), ladder_(ladder) {}
 
   /// Only these contenders can conflict: the others own no area of the facet. To be called first.
   void set_rivals(const std::vector<std::uint32_t>& rivals);
@@ -53,6 +54,7 @@ class BisectorVertices {
 
   std::optional<Triple> triple(std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
   void examine(const Triple& triple, Found& found);
+  bool examine_in_doubles(const Triple& triple, Found& found);
   template <class NT>
   predicates::BisectorVertex<NT> construct(const FacetNumbers<NT>& numbers, const Triple& triple) const;
   template <class NT>
@@ -71,6 +73,7 @@ class BisectorVertices {
 
   FacetWaves& waves_;
   const Contenders& contenders_;
+  VertexFilter filter_;
   FacetLadder& ladder_;
   std::vector<std::uint32_t> rivals_;
   std::vector<std::uint32_t> rank_;       ///< of a contender among the rivals

@@ -28,6 +28,9 @@ inline constexpr double kMostAngleError = 0x1p-10;
 inline double below_zero_of(double at_0, double at_1) noexcept { return at_0 / (at_0 - at_1) * (1 - 0x1p-48) - 0x1p-1070; }
 inline double above_zero_of(double at_0, double at_1) noexcept { return at_0 / (at_0 - at_1) * (1 + 0x1p-48) + 0x1p-1070; }
 
+/// #waves-in-doubles: relative error of weight + |p - image| in plain doubles.
+inline constexpr double kDoubleWaveError = 8 * kUnit;
+
 /// #floats: a float that exceeds the error by at least 2^-21 of itself, also below the range of float. Pre: error is below 2^127.
 inline float rounded_up(double error) noexcept { return static_cast<float>(error * (1 + 0x1p-20) + 0x1p-120); }
 

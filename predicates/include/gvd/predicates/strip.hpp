@@ -55,11 +55,14 @@ double rough_size(const Complex<T>& z) {
   return std::fabs(rough(z.x)) + std::fabs(rough(z.y));
 }
 
+/// An upper bound of sqrt(x^2 + y^2): the second summand is above what underflows.
+inline double length_bound(double x, double y) { return std::sqrt(x * x + y * y) * (1 + 0x1p-40) + 0x1p-500; }
+
 template <class T>
 Disc<T> cross(const Disc<T>& z, const EdgeFrame<T>& side, bool left, double unit_of_t) {
   Disc<T> result{left ? cross_left(z.mid, side) : cross_right(z.mid, side), 0};
   // |q| of the turn: relative error of the frame and of the product, both below kUnfoldingStep / 2 units of the sizes added here.
-  const double turn = std::hypot(rough(left ? side.v : side.u), rough(side.y)) * (1 + 0x1p-40);
+  const double turn = length_bound(rough(left ? side.v : side.u), rough(side.y));
   const double size = (rough_size(z.mid) + 1 + z.radius) * turn + rough_size(result.mid) + 1;
   result.radius = (z.radius * turn + kUnfoldingStep * unit_of_t * size) * (1 + 0x1p-40) + 0x1p-1000;
   return result;
@@ -80,32 +83,39 @@ struct Unfolding {
   Disc<T> image, cone0, cone1;
 };
 
+/// The root of a strip behind its first half-edge, whose twin's frame this is.
+template <class T>
+Unfolding<T> unfold_first(const EdgeFrame<T>& opposite, double unit_of_t) {
+  Unfolding<T> at;
+  at.image.mid = apex_from_behind(opposite);
+  at.image.radius = kUnfoldingStep * unit_of_t * (rough_size(at.image.mid) + 1) + 0x1p-1000;
+  at.cone0.mid = {T(0.0), T(0.0)};
+  at.cone1.mid = {T(1.0), T(0.0)};
+  return at;
+}
+
+/// One face further, over `side`; `bounds` as in StripStep.
+template <class T, bool kCone = true>
+void unfold_step(Unfolding<T>& at, const EdgeFrame<T>& side, bool left, bool bounds, double unit_of_t) {
+  at.image = cross(at.image, side, left, unit_of_t);
+  if constexpr (kCone) {
+    if (bounds && !left)
+      at.cone0 = {{T(0.0), T(0.0)}, 0};
+    else
+      at.cone0 = cross(at.cone0, side, left, unit_of_t);
+    if (bounds && left)
+      at.cone1 = {{T(1.0), T(0.0)}, 0};
+    else
+      at.cone1 = cross(at.cone1, side, left, unit_of_t);
+  }
+}
+
 /// Unfolds a strip; `frame(h)` gives EdgeFrame<T>. With `kCone` false the cone is not computed. Cost: one complex product a face and point.
 template <class T, bool kCone = true, class FrameOf>
 Unfolding<T> unfold(const Strip& strip, FrameOf&& frame, int bits = 0) {
   const double u = unit<T>(bits);
-  Unfolding<T> at;
-  {
-    const EdgeFrame<T>& first = frame(strip.opposite);
-    at.image.mid = apex_from_behind(first);
-    at.image.radius = kUnfoldingStep * u * (rough_size(at.image.mid) + 1) + 0x1p-1000;
-    at.cone0.mid = {T(0.0), T(0.0)};
-    at.cone1.mid = {T(1.0), T(0.0)};
-  }
-  for (const StripStep& step : strip.steps) {
-    const EdgeFrame<T>& side = frame(step.side);
-    at.image = cross(at.image, side, step.left, u);
-    if constexpr (kCone) {
-      if (step.bounds && !step.left)
-        at.cone0 = {{T(0.0), T(0.0)}, 0};
-      else
-        at.cone0 = cross(at.cone0, side, step.left, u);
-      if (step.bounds && step.left)
-        at.cone1 = {{T(1.0), T(0.0)}, 0};
-      else
-        at.cone1 = cross(at.cone1, side, step.left, u);
-    }
-  }
+  Unfolding<T> at = unfold_first<T>(frame(strip.opposite), u);
+  for (const StripStep& step : strip.steps) unfold_step<T, kCone>(at, frame(step.side), step.left, step.bounds, u);
   return at;
 }
 

@@ -45,7 +45,7 @@ class DiscNumbers {
       const T x = T(1.0) - z.mid.x;
       result.mid = {T(1.0) - (x * f.v - z.mid.y * f.y), x * f.y + z.mid.y * f.v};
     }
-    const double turn = std::hypot(rough(left ? f.u : f.v), rough(f.y)) * (1 + 0x1p-40);
+    const double turn = length_bound(rough(left ? f.u : f.v), rough(f.y));
     const double size = (rough_size(z.mid) + 1 + z.radius) * turn + rough_size(result.mid) + 1;
     result.radius = (z.radius * turn + kUnfoldingStep * unit_ * size) * (1 + 0x1p-40) + 0x1p-1000;
     return result;

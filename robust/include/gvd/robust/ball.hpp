@@ -124,7 +124,7 @@ class Ball {
     const bool may_underflow = k < 0 && !(rad_ == 0 && (M::kDetectsExactness || M::is_zero(mid_)));
     T mid = M::scale(mid_, k);
     const double overflow = 0 * std::fabs(M::nearest(mid));  // not a number if the midpoint became infinite
-    return {std::move(mid), inflated(std::ldexp(rad_, k) + (may_underflow ? M::kUnderflowOfBall : 0) + overflow)};
+    return {std::move(mid), inflated(times_power_of_two(rad_, k) + (may_underflow ? M::kUnderflowOfBall : 0) + overflow)};
   }
 
   Ball& operator+=(const Ball& b) { return *this = *this + b; }

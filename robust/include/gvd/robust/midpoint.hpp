@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "gvd/robust/double_double.hpp"
@@ -24,6 +26,12 @@ inline double sum_rounded_up(double a, double b, double c) noexcept {
   const DoubleDouble sum = two_sum(head.hi, tail.hi);
   // a + b + c = sum.hi + sum.lo + tail.lo, the last two less than an ulp of the first.
   return sum.lo + tail.lo > 0 ? std::nextafter(sum.hi, std::numeric_limits<double>::infinity()) : sum.hi;
+}
+
+/// a 2^k, rounded once: std::ldexp without its price.
+inline double times_power_of_two(double a, int k) noexcept {
+  if (k < -1022 || k > 1023) return std::ldexp(a, k);
+  return a * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + k) << 52);
 }
 
 /// Rounded arithmetic on the midpoints of balls. Every operation hands back, beside the rounded result, a bound of its error,
@@ -61,7 +69,7 @@ struct Midpoint<double> {
     return s;
   }
   static double negate(double a) noexcept { return -a; }
-  static double scale(double a, int k) noexcept { return std::ldexp(a, k); }
+  static double scale(double a, int k) noexcept { return times_power_of_two(a, k); }
   /// Doubles that are at least and at most |a|.
   static double magnitude(double a) noexcept { return std::fabs(a); }
   static double least_magnitude(double a) noexcept { return std::fabs(a); }
@@ -104,7 +112,7 @@ struct Midpoint<DoubleDouble> {
     return s;
   }
   static DoubleDouble negate(const DoubleDouble& a) noexcept { return -a; }
-  static DoubleDouble scale(const DoubleDouble& a, int k) noexcept { return {std::ldexp(a.hi, k), std::ldexp(a.lo, k)}; }
+  static DoubleDouble scale(const DoubleDouble& a, int k) noexcept { return {times_power_of_two(a.hi, k), times_power_of_two(a.lo, k)}; }
   // |lo| <= u |hi|, and the factors are two roundings wide.
   static double magnitude(const DoubleDouble& a) noexcept { return std::fabs(a.hi) * (1 + 0x1p-52); }
   static double least_magnitude(const DoubleDouble& a) noexcept { return std::fabs(a.hi) * (1 - 0x1p-52); }
