@@ -127,11 +127,12 @@ TEST(Tessellation, ABisectorAlongASideLeavesTheOneInsideTheFacet) {
 }
 
 TEST(Tessellation, WithoutExactNumbersATieIsUndecidedAndNotGuessed) {
+  // Four images on a circle about (0.5, 0.375) whose radius, the root of 5, no number represents.
   PlanarWaves waves({0.5, 1}, false);
-  waves.add(0, 10, {0.5, -1.625}, 0);
-  waves.add(1, 11, {2.5, 0.375}, 0);
-  waves.add(1, 12, {0.5, 2.375}, 0);
-  waves.add(2, 13, {-1.5, 0.375}, 0);
+  waves.add(0, 10, {1.5, -1.625}, 0);
+  waves.add(1, 11, {2.5, 1.375}, 0);
+  waves.add(1, 12, {1.5, 2.375}, 0);
+  waves.add(2, 13, {-1.5, 1.375}, 0);
   waves.finish();
   predicates::Decisions decisions;
   const FacetTessellation t = tessellate(waves, decisions);
