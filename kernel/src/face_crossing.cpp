@@ -1,5 +1,6 @@
 // How the waves that wait on a half-edge cross the face above it.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "gvd/predicates/filter_error.hpp"
@@ -62,7 +63,7 @@ void project_end(const WindowInterval& wave, const Frame& side, const Image& con
 
 /// One of the two sides over which waves leave a face, set up once for all of them.
 struct Propagation::Exit {
-  HalfedgeId target;
+  HalfedgeId target, edge;  // the edge: by the lower one of its half-edges
   Frame side;
   double inverse_length;
   double origin_upper, target_upper, third_upper;  // certain upper bounds of D at the ends of the side and at the third vertex of the face
@@ -72,7 +73,7 @@ struct Propagation::Exit {
 };
 
 Propagation::Exit Propagation::exit_over(HalfedgeId side, VertexId third, bool left) const {
-  Exit exit{mesh_.twin(side), frames_[side], 0, 0, 0, 0, 0, kNone, {}};
+  Exit exit{mesh_.twin(side), std::min(side, mesh_.twin(side)), frames_[side], 0, 0, 0, 0, 0, kNone, {}};
   if (exit.target == kNone) return exit;
   const VertexId origin = mesh_.target(side), target = mesh_.origin(side);
   exit.inverse_length = 1 / exit.side.length;
@@ -195,7 +196,9 @@ Propagation::Crossing Propagation::see_apex(std::uint32_t w, HalfedgeId h) {
     const double slack = 4 * disc * (1 + norm1(dx, dy) / -dy);
     best = {distance + error, x - slack, x + slack};
   }
-  relax(mesh_.apex(h), {wave.window, wave.root, kNone, distance, error, wave.image});  // may add waves: last use of `wave`
+  const VertexId apex = mesh_.apex(h);
+  // No shortest path comes back to where it began. May add waves: last use of `wave`.
+  if (apex != wave.root) relax(apex, {wave.window, wave.root, kNone, distance, error, wave.image});
   return {where, distance};
 }
 
@@ -219,9 +222,9 @@ Propagation::Sight Propagation::locate_apex(const Wave& wave, HalfedgeId h, cons
 template <bool kLeft>
 void Propagation::make_child(const Wave& wave, bool at_apex, double parent_reach, Exit& exit) {
   const Frame& side = exit.side;
-  // A shortest path crosses no edge twice: a window that has come once round a vertex is done.
-  const std::uint32_t turns = (kLeft ? wave.begin_turns : wave.end_turns) + 1u;
-  if (turns >= exit.turn_limit) return;
+  // A shortest path crosses no edge twice: a window that has come once round a vertex, or once more over its mark, is done.
+  const std::uint32_t turns = (kLeft ? wave.begin_turns : wave.end_turns) + 1u, steps = wave.steps + 1;
+  if (turns >= exit.turn_limit || exit.edge == wave.mark) return;
   Wave& child = waves_[free_wave_];
   child.image = cross<kLeft>(wave.image, side);
   const double image_error = wave.image_error + kStepError * (parent_reach + (norm1(child.image.x, child.image.y) + 1) * side.length);
@@ -239,6 +242,8 @@ void Propagation::make_child(const Wave& wave, bool at_apex, double parent_reach
   }
   child.begin_turns = kLeft ? static_cast<std::uint16_t>(turns) : std::uint16_t{0};
   child.end_turns = kLeft ? std::uint16_t{0} : static_cast<std::uint16_t>(turns);
+  child.steps = steps;
+  child.mark = std::has_single_bit(steps) ? exit.edge : wave.mark;
   child.weight = wave.weight;
   child.weight_error = wave.weight_error;
   child.image_error = rounded_up(image_error);

@@ -46,24 +46,25 @@ Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& ki
   for (HalfedgeId h = 0; h < m; ++h) degree_[mesh_.origin(h)] = static_cast<std::uint16_t>(std::min(degree_[mesh_.origin(h)] + 1, 0xffff));
   emitted_weight_.assign(n, infinity);
   emitted_error_.assign(n, 0);
+  emitted_low_.assign(n, infinity);
   emitted_.assign(m, kNone);
   cut_at_shadow_.assign(n, 0);
+  sends_again_.assign(n, 0);
   field_.windows.reserve(2 * m);
   field_.candidates.reserve(2 * n);
 }
 
 bool Propagation::run(std::span<const WaveStart> starts, PropagationPoll poll, void* user) {
+  poll_ = poll;
+  user_ = user;
   for (const WaveStart& s : starts) relax(s.vertex, {kNone, s.vertex, kNone, s.weight, 0, {0, 0}});
-  std::uint64_t settled = 0;
   while (!heap_.empty()) {
     const Entry top = heap_.top();
     heap_.pop();
     if (settled_[top.vertex] != 0 || top.distance != field_.distance[top.vertex]) continue;
     settle(top.vertex);
-    drain();
-    if ((++settled & 1023) == 0 && poll != nullptr &&
-        !poll(user, settled, field_.windows.capacity() * sizeof(WindowRecord) + waves_.capacity() * sizeof(Wave)))
-      return false;
+    ++settled_count_;
+    if (!drain()) return false;
   }
   predicates::count(decisions_, predicates::Predicate::window_orientation, robust::Stage::filter);
   decisions_.count(static_cast<std::size_t>(predicates::Predicate::window_orientation), robust::Stage::filter, filtered_orientations_);
@@ -73,11 +74,31 @@ bool Propagation::run(std::span<const WaveStart> starts, PropagationPoll poll, v
 
 void Propagation::settle(VertexId v) {
   settled_[v] = 1;
-  emitted_weight_[v] = field_.distance[v];
-  emitted_error_[v] = field_.error[v] + kDistanceError * field_.distance[v];
+  set_weight(v, 0);
   send_waves(v, field_.candidates[field_.first_candidate[v]].next == kNone);
-  relax_neighbours(v, 1);
+  relax_neighbours(v);
   push_lists_at(v);
+}
+
+/// No path is shorter than the least distance of its root.
+double Propagation::least_length(VertexId v, const Candidate& c) const {
+  const double low = c.distance - c.error;
+  return c.via == v ? low : std::max(low, emitted_low_[c.via]);
+}
+
+/// What v's waves carry until it sends them again: its distance is certain to stay in between, by a slack for what may still come, of a share of each
+/// candidate's error. The slack goes no lower than the roots' own bounds: so vertices closer than the errors cannot push one another's bounds down for ever.
+void Propagation::set_weight(VertexId v, double share) {
+  const double d = field_.distance[v];
+  double low = emitted_low_[v];
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
+    const Candidate& way = field_.candidates[c];
+    const double slack = share * way.error + kDistanceError * d;
+    low = std::min(low, way.via == v ? way.distance - way.error : std::max(way.distance - way.error - slack, emitted_low_[way.via]));
+  }
+  emitted_weight_[v] = d;
+  emitted_low_[v] = low;
+  emitted_error_[v] = std::max(d - low, upper_[v] - d) + kDistanceError * d;
 }
 
 /// Of the sources at v, or of the relay for each of its candidates.
@@ -89,28 +110,27 @@ void Propagation::send_waves(VertexId v, bool only_path) {
   }
 }
 
-/// Along the edges at v, whose distance may still improve within the error.
-/// `slack`: how often the error of v's distance is passed on.
-void Propagation::relax_neighbours(VertexId v, double slack) {
+/// Along the edges at v.
+void Propagation::relax_neighbours(VertexId v) {
   mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
-    relax_over(v, mesh_.target(h), frames_[h].length, slack);
+    relax_over(v, mesh_.target(h), frames_[h].length);
     const HalfedgeId last = Mesh::prev(h);  // the edge to the last neighbour of a boundary fan
-    if (mesh_.twin(last) == kNone) relax_over(v, mesh_.origin(last), frames_[last].length, slack);
+    if (mesh_.twin(last) == kNone) relax_over(v, mesh_.origin(last), frames_[last].length);
   });
 }
 
-/// Along the edge from v to `to`. A shortest path does not come back to `to`, so what v has over this edge does not count: else the errors of two
-/// vertices that lie close together would raise one another.
-void Propagation::relax_over(VertexId v, VertexId to, double length, double slack) {
-  const double d = emitted_weight_[v];
-  double low = std::numeric_limits<double>::infinity();
-  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
-    const Candidate& way = field_.candidates[c];
-    if (way.window != kNone || way.via != to) low = std::min(low, way.distance - way.error);
-  }
-  if (low == std::numeric_limits<double>::infinity()) return;
-  const double error = slack * std::max(d - low, upper_[v] - d) + kDistanceError * d, along = d + length;
-  relax(to, {kNone, v, kNone, along, error + kDistanceError * along, {0, 0}});
+/// Along the edge from v to `to`, unless v is known by this edge only: a shortest path does not come back.
+void Propagation::relax_over(VertexId v, VertexId to, double length) {
+  if (is_only_from(to, field_.first_candidate[v])) return;
+  const double along = emitted_weight_[v] + length;
+  relax(to, {kNone, v, kNone, along, emitted_error_[v] + kDistanceError * along, {0, 0}});
+}
+
+/// Whether all candidates of this list, from its link `c` on, are the edge from that neighbour.
+bool Propagation::is_only_from(VertexId neighbour, std::uint32_t c) const {
+  for (; c != kNone; c = field_.candidates[c].next)
+    if (field_.candidates[c].window != kNone || field_.candidates[c].via != neighbour) return false;
+  return true;
 }
 
 /// Whether a wave of its own sources may be the nearest at v.
@@ -123,7 +143,7 @@ bool Propagation::is_source(VertexId v) const {
 void Propagation::relax(VertexId v, const Candidate& candidate) {
   if (candidate.distance - candidate.error > upper_[v]) return;
   auto& list = field_.candidates;
-  if (field_.restarted && candidate.window == kNone) {  // the same path, its root nearer than it was
+  if (candidate.window == kNone) {  // the same path, its root nearer than it was
     for (std::uint32_t* link = &field_.first_candidate[v]; *link != kNone; link = &list[*link].next) {
       if (list[*link].window != kNone || list[*link].via != candidate.via) continue;
       *link = list[*link].next;
@@ -149,7 +169,7 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
   const bool nearer = candidate.distance < field_.distance[v];
   if (nearer) field_.distance[v] = candidate.distance;
   double low = candidate.distance;
-  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next) low = std::min(low, list[c].distance - list[c].error);
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = list[c].next) low = std::min(low, least_length(v, list[c]));
   field_.error[v] = std::max(field_.distance[v] - low, upper_[v] - field_.distance[v]);
   if (settled_[v] == 0) {
     if (nearer) heap_.push({candidate.distance, v});
@@ -158,22 +178,28 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
   improve_settled(v, low, candidate);
 }
 
-/// Rare. Its own waves start anew if their weight is no longer within its error, or if they were cut off at the shadow of what was the only path.
+/// Rare. Its waves are to be sent again if their weight is no longer within its error, or if they were cut off at the shadow of what was the only path.
 void Propagation::improve_settled(VertexId v, double low, const Candidate& candidate) {
-  if (low < emitted_weight_[v] - emitted_error_[v] || cut_at_shadow_[v] != 0) {
-    field_.restarted = true;
-    cut_at_shadow_[v] = 0;
-    emitted_weight_[v] = field_.distance[v];
-    emitted_error_[v] = 2 * field_.error[v] + kDistanceError * field_.distance[v];  // so that close vertices do not start one another anew for ever
-    mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
-      if (emitted_[h] != kNone) field_.windows[emitted_[h]].packed |= WindowRecord::kDead;
-      emitted_[h] = kNone;
-    });
-    send_waves(v, false);
-    relax_neighbours(v, 2);
-  } else if (kinds_[v] == VertexKind::relay && !is_source(v)) {
-    emit_shadow(v, candidate, false);
+  if (low < emitted_low_[v] || cut_at_shadow_[v] != 0) {
+    if (sends_again_[v] == 0) to_send_again_.push_back(v);
+    sends_again_[v] = 1;
+    return;
   }
+  if (kinds_[v] == VertexKind::relay && !is_source(v)) emit_shadow(v, candidate, false);
+  const std::uint32_t others = field_.candidates[field_.first_candidate[v]].next;
+  if (others != kNone && is_only_from(field_.candidates[others].via, others)) relax_neighbours(v);  // one of them was left out
+}
+
+void Propagation::send_again(VertexId v) {
+  sends_again_[v] = cut_at_shadow_[v] = 0;
+  field_.restarted = true;
+  set_weight(v, 1);
+  mesh_.for_each_outgoing(v, [&](HalfedgeId h) {
+    if (emitted_[h] != kNone) field_.windows[emitted_[h]].packed |= WindowRecord::kDead;
+    emitted_[h] = kNone;
+  });
+  send_waves(v, false);
+  relax_neighbours(v);
 }
 
 void Propagation::emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow) {
@@ -198,6 +224,7 @@ void Propagation::emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow) {
   wave.cone0_at_origin = wave.cone1_at_target = true;
   if (shadow != nullptr && cut_at_shadow(*shadow, outgoing, wave)) cut_at_shadow_[v] = 1;
   wave.root = v;
+  wave.mark = kNone;
   wave.next = kNone;
   wave.window = emitted_[outgoing] = static_cast<WindowId>(field_.windows.size());
   field_.windows.push_back({kNone, target, v, field_.first_window[target]});
@@ -262,14 +289,27 @@ void Propagation::push(HalfedgeId h) {
   fifo_.push_back(h);
 }
 
-void Propagation::drain() {
-  while (fifo_head_ < fifo_.size()) {
+/// False if the caller wants to stop.
+bool Propagation::drain() {
+  while (true) {
+    for (std::size_t i = 0; i < to_send_again_.size(); ++i) send_again(to_send_again_[i]);  // may add more
+    work_ += to_send_again_.size();
+    to_send_again_.clear();
+    if (fifo_head_ == fifo_.size()) break;
     const HalfedgeId h = fifo_[fifo_head_++];
     waiting_[h].queued = false;
     cross_face(h);
+    work_ += 1 + kept_;
+    if (work_ >= next_poll_ && !may_go_on()) return false;
   }
   fifo_.clear();
   fifo_head_ = 0;
+  return true;
+}
+
+bool Propagation::may_go_on() {
+  next_poll_ = work_ + kWorkBetweenPolls;
+  return poll_ == nullptr || poll_(user_, settled_count_, field_.windows.capacity() * sizeof(WindowRecord) + waves_.capacity() * sizeof(Wave));
 }
 
 namespace {
@@ -304,6 +344,7 @@ std::optional<Sight> sight_in(const predicates::Unfolding<T>& at, const EdgeFram
 
 /// The later stages for an apex that the filter could not place.
 Propagation::Sight Propagation::decide_apex(const Wave& wave, HalfedgeId h) {
+  work_ += kWorkOfLadder;
   const predicates::Strip strip = strip_of(mesh_, field_, wave.window);
   const auto decided = [&](Sight sight, robust::Stage stage) {
     predicates::count(decisions_, predicates::Predicate::window_orientation, stage);

@@ -25,6 +25,8 @@ class Propagation {
   struct Wave : WindowInterval {
     Image cone0, cone1;
     std::uint16_t begin_turns, end_turns;  // faces crossed in a row about the origin and the target of the half-edge
+    std::uint32_t steps;                   // faces crossed
+    HalfedgeId mark;                       // an edge that was crossed: the last one at a number of faces that is a power of two
     WindowId window;
     VertexId root;
     std::uint32_t next;
@@ -49,16 +51,21 @@ class Propagation {
   void settle(VertexId v);
   void relax(VertexId v, const Candidate& candidate);
   void improve_settled(VertexId v, double low, const Candidate& candidate);
+  void send_again(VertexId v);
   void send_waves(VertexId v, bool only_path);
-  void relax_neighbours(VertexId v, double slack);
-  void relax_over(VertexId v, VertexId to, double length, double slack);
+  double least_length(VertexId v, const Candidate& c) const;
+  void set_weight(VertexId v, double share);
+  void relax_neighbours(VertexId v);
+  void relax_over(VertexId v, VertexId to, double length);
+  bool is_only_from(VertexId neighbour, std::uint32_t candidates) const;
   bool is_source(VertexId v) const;
   void emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow);
   void emit_shadow(VertexId v, const Candidate& arrival, bool only_path);
   bool cut_at_shadow(const Shadow& shadow, HalfedgeId outgoing, Wave& wave);
   void push_lists_at(VertexId v);
   void push(HalfedgeId h);
-  void drain();
+  bool drain();
+  bool may_go_on();
   void cross_face(HalfedgeId h);
   void trim_list(HalfedgeId h);
   Crossing see_apex(std::uint32_t wave, HalfedgeId h);
@@ -96,8 +103,11 @@ class Propagation {
   std::vector<std::uint8_t> settled_;
   std::vector<std::uint16_t> degree_;         // faces at a vertex
   std::vector<double> emitted_weight_, emitted_error_;  // per settled vertex: what its windows carry
+  std::vector<double> emitted_low_;                     // and how near it can be before they are sent again
   std::vector<WindowId> emitted_;             // per outgoing half-edge: the first window sent over the opposite side
   std::vector<std::uint8_t> cut_at_shadow_;   // per relay: what it sent is only what the one path to it leaves
+  std::vector<std::uint8_t> sends_again_;     // settled vertices that are waiting to send their waves again
+  std::vector<VertexId> to_send_again_;
   Shadow shadow_;
   std::vector<std::uint32_t> list_;           // waves of the half-edge at hand: the first kept_ are left
   std::vector<Crossing> crossings_;           // of these
@@ -110,6 +120,11 @@ class Propagation {
     }
   };
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
+  PropagationPoll poll_ = nullptr;
+  void* user_ = nullptr;
+  /// Work is counted in windows; one that the ladder has to place may cost as much as this many.
+  static constexpr std::uint64_t kWorkBetweenPolls = 1 << 14, kWorkOfLadder = 256;
+  std::uint64_t settled_count_ = 0, work_ = 0, next_poll_ = kWorkBetweenPolls;
   std::uint64_t filtered_orientations_ = 0, filtered_prunings_ = 0;
 };
 

@@ -32,6 +32,20 @@ TEST(CloseVertices, DoNotStartOneAnotherAnewWithoutEnd) {
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) EXPECT_LT(solution.distance(v), 10);
 }
 
+TEST(CloseVertices, APathDoesNotComeBackToItsSource) {
+  // A needle with a source within doubles of its tip: straight lines wind round the tip, and round both, hundreds of times.
+  test::MeshArrays needle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {}};
+  needle.points[0][2] = 3000;
+  for (std::uint32_t i = 0; i < 4; ++i) needle.faces.push_back({0, 1 + i, 1 + (i + 1) % 4});
+  const Mesh mesh(needle);
+  const std::vector<Source> sources = {in_face(mesh, 0, {1, 0x1p-60, 0x1p-61}, 0), in_face(mesh, 1, {1, 0x1p-58, 0}, 0)};
+  SolveOptions options;
+  options.diagram = false;
+  const auto solution = solve(mesh, sources, options);
+  ASSERT_TRUE(test::is_certified(solution));
+  EXPECT_LT(solution.summary().windows_propagated, 1000u);
+}
+
 TEST(CloseVertices, CellsOfTwoSourcesInOneFacetHaveAnArea) {
   // Doubles cannot construct the points of their bisector.
   const Mesh mesh(test::MeshArrays{{{6, 53, 0}, {7, 53, 0}, {7, 54, 0}, {6, 54, 0}}, {{0, 1, 2}, {0, 2, 3}}});

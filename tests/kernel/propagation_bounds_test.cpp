@@ -153,5 +153,22 @@ TEST(PropagationBounds, ErrorsCoverTheTruthWithSourcesInsideFacesAndWeights) {
   expect_errors_cover(terrain, place, "inside");
 }
 
+TEST(PropagationBounds, TheCallerIsAskedByWorkDone) {
+  const Mesh mesh(random_terrain(40, 2, 1));
+  const Frames frames(mesh);
+  predicates::Decisions decisions;
+  const auto kinds = classify_vertices(mesh, decisions);
+  const std::vector<WaveStart> starts = {{0, 0}};
+  DistanceField field;
+  std::uint64_t asked = 0;
+  const auto count = [](void* user, std::uint64_t, std::uint64_t) { return ++*static_cast<std::uint64_t*>(user) > 0; };
+  EXPECT_TRUE(propagate(frames, starts, kinds, field, decisions, count, &asked));
+  EXPECT_GE(asked, field.windows_propagated >> 14);
+  const auto stop = [](void*, std::uint64_t, std::uint64_t) { return false; };
+  DistanceField stopped;
+  EXPECT_FALSE(propagate(frames, starts, kinds, stopped, decisions, stop, nullptr));
+  EXPECT_LT(stopped.windows.size(), 3u << 14);
+}
+
 }  // namespace
 }  // namespace gvd::test
