@@ -8,6 +8,7 @@
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/strip_window.hpp"
 #include "support/planar_strips.hpp"
+#include "support/zigzag.hpp"
 
 /// Inputs that try to break the bounds of the filter and of double-double: long strips, slivers, offsets, all scales, neighbours of ties.
 namespace gvd::predicates {
@@ -18,7 +19,9 @@ using robust::DoubleDouble;
 using robust::MaybeSign;
 using robust::Sign;
 using robust::Stage;
+using test::LaidOut;
 using test::Random;
+using test::random_layout;
 /// 2000 bits.
 using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<600>, boost::multiprecision::et_off>;
 
@@ -80,66 +83,6 @@ TEST(Stretches, ZeroesAreBracketed) {
 
 // ---- strips ----
 
-struct RealPoint {
-  Real x, y;
-};
-Real squared(const SpacePoint& a, const SpacePoint& b) {
-  Real sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) sum += (Real(a[i]) - Real(b[i])) * (Real(a[i]) - Real(b[i]));
-  return sum;
-}
-
-/// A strip from a vertex, unfolded from nothing but the lengths of its edges: each new corner is placed over its edge by its two distances.
-struct LaidOut {
-  std::vector<SpacePoint> corner;  ///< 0: the source, 1 and 2 its exit edge, then one a face
-  std::vector<std::array<std::size_t, 2>> edge;  ///< per corner from 3: the edge it is over
-  std::vector<RealPoint> flat() const {
-    std::vector<RealPoint> p(corner.size());
-    p[1] = {0, 0};
-    p[2] = {sqrt(squared(corner[1], corner[2])), 0};
-    place(p, 0, 1, 2, true);
-    for (std::size_t v = 3; v < corner.size(); ++v) place(p, v, edge[v - 3][0], edge[v - 3][1], false);
-    return p;
-  }
-  FaceStrip strip() const {
-    FaceStrip s({corner[0], corner[1], corner[2]}, FacePoint::corner(0));
-    for (std::size_t v = 3; v < corner.size(); ++v) s.cross({corner[edge[v - 3][1]], corner[edge[v - 3][0]], corner[v]});
-    return s;
-  }
-
- private:
-  /// On the left of a -> b, or on the right.
-  void place(std::vector<RealPoint>& p, std::size_t v, std::size_t a, std::size_t b, bool left) const {
-    const Real l = squared(corner[a], corner[b]), va = squared(corner[v], corner[a]), vb = squared(corner[v], corner[b]);
-    const Real t = (va - vb + l) / (2 * l), h = sqrt(abs(va / l - t * t));
-    const Real dx = p[b].x - p[a].x, dy = p[b].y - p[a].y, s = left ? h : -h;
-    p[v] = {p[a].x + t * dx - s * dy, p[a].y + t * dy + s * dx};
-  }
-};
-
-/// Random corners over random edges; `change` makes them adversarial.
-template <class Change>
-LaidOut random_layout(std::size_t faces, Random& random, const Change& change) {
-  LaidOut strip;
-  const auto point = [&](double x, double y, double z) { return change(SpacePoint{x, y, z}); };
-  // A zigzag between two banks with heights: at every face one bank goes on.
-  double left = 0, right = 0.5;
-  strip.corner = {point(-1 + random.uniform(-0.3, 0.3), 0, random.uniform()), point(left, 1, random.uniform()), point(right, -1, random.uniform())};
-  std::size_t bank_left = 1, bank_right = 2;
-  while (strip.corner.size() < faces + 3) {
-    const std::size_t v = strip.corner.size();
-    strip.edge.push_back({bank_left, bank_right});
-    if (random.below(2) == 0) {
-      strip.corner.push_back(point(left += random.uniform(0.2, 1), 1 + random.uniform(-0.2, 0.2), random.uniform()));
-      bank_left = v;
-    } else {
-      strip.corner.push_back(point(right += random.uniform(0.2, 1), -1 + random.uniform(-0.2, 0.2), random.uniform()));
-      bank_right = v;
-    }
-  }
-  return strip;
-}
-
 struct Tally {
   std::map<Stage, int> decided;
   int contained = 0;
@@ -148,7 +91,7 @@ struct Tally {
 /// Everything that the first two stages say must be so.
 void attack(const LaidOut& layout, Random& random, Tally& tally) {
   const FaceStrip strip = layout.strip();
-  const auto flat = layout.flat();
+  const auto flat = layout.flat<Real>();
   const auto n = static_cast<std::uint32_t>(flat.size());
   // Of the first face as given, 0 is the source and 1, 2 the exit edge: the same numbers.
   for (int i = 0; i < 12; ++i) {
