@@ -175,6 +175,19 @@ int Contenders::ray_through(FacetLadder& ladder, const Contender& wave, const Co
   return kNotTangent;
 }
 
+bool Contenders::runs_along(FacetLadder& ladder, std::size_t i, std::size_t end, std::size_t side) const {
+  const auto test = [&](const auto& numbers, robust::Stage) -> std::optional<bool> {
+    const auto at_start = maybe_sign(cone_side(numbers, list_[i], end, numbers.side[side].origin));
+    const auto at_end = maybe_sign(cone_side(numbers, list_[i], end, numbers.side[(side + 1) % 3].origin));
+    if (at_start.value_or(Sign::zero) != Sign::zero || at_end.value_or(Sign::zero) != Sign::zero) return false;
+    return at_start && at_end ? std::optional(true) : std::nullopt;
+  };
+  if (const auto known = test(ladder.filter(), robust::Stage::filter)) return *known;
+  const auto [known, added] = runs_along_.try_emplace({i, end, side}, false);
+  if (added) known->second = ladder.for_each_stage(test).value_or(false);
+  return known->second;
+}
+
 Sign Contenders::mirrored(std::size_t i, std::size_t j, std::size_t side) const {
   const auto proved = [&](std::size_t entering, std::size_t other) {
     const auto [known, added] = mirrored_.try_emplace({entering, other, side}, false);

@@ -64,6 +64,9 @@ class Contenders {
   /// Whether the two tie along a side because their images are mirror images in it: positive if i comes in over that side, negative if j does, zero
   /// if nothing of the kind is proved.
   robust::Sign mirrored(std::size_t i, std::size_t j, std::size_t side) const;
+  /// Whether boundary ray `end` of i runs along a side of the facet: then every point of the side is on it. Proved from the images alone, since the
+  /// numbers of such a point may be beyond all proof.
+  bool runs_along(FacetLadder& ladder, std::size_t i, std::size_t end, std::size_t side) const;
   std::string name(std::size_t i) const;
   /// Per site the one that stands for it: itself, or the lowest of the windows with its image.
   const std::vector<std::uint32_t>& representatives() const { return representative_; }
@@ -82,6 +85,7 @@ class Contenders {
   FacetWaves& waves_;
   std::vector<Contender> list_;
   mutable std::map<std::array<std::size_t, 3>, bool> mirrored_;  ///< asked for: i that comes in over the side, j, the side
+  mutable std::map<std::array<std::size_t, 3>, bool> runs_along_;  ///< asked for: i, end of its cone, side
   std::vector<std::uint32_t> representative_;
   std::vector<signed char> tangent_;
   std::vector<std::uint8_t> eclipsed_;

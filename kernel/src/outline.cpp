@@ -154,14 +154,18 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
         continue;
       }
     }
+    if (!events.empty() && contenders_.runs_along(ladder_, from, end, side)) {
+      ladder_.count(Predicate::edge_tie, robust::Stage::identity);
+      events[0].on_ray = true;
+      continue;
+    }
     const MaybeSign seen = ladder_.decide(
         Predicate::edge_tie,
         [&](const auto& numbers) -> MaybeSign {
-          const auto& line = numbers.side[side];
           if (events.empty()) return maybe_sign(cone_side(numbers, contenders_[from], end, numbers.side[(side + 1) % 3].origin));
           const auto tie = parameter(numbers, side, events[0]);
           if (tie.existence != Existence::proved) return std::nullopt;
-          return maybe_sign(cone_side(numbers, contenders_[from], end, predicates::point_at(line, tie.t)));
+          return maybe_sign(cone_side(numbers, contenders_[from], end, predicates::point_at(numbers.side[side], tie.t)));
         },
         [&] { return "the end of the view of " + contenders_.name(from) + " on side " + std::to_string(side); });
     if (!seen) return false;
@@ -243,7 +247,7 @@ predicates::SideTie<NT> OutlineWalk::parameter(const FacetNumbers<NT>& numbers, 
 
 template <class NT>
 std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event,
-                                                           const std::optional<Event>& previous) const {
+                                                           const std::optional<Event>& previous, std::array<bool, 2> along) const {
   bool open = false, on_ray = false;
   const auto excludes = [&](const NT& x) {
     const MaybeSign sign = maybe_sign(x);
@@ -269,7 +273,7 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
     const auto p = predicates::point_at(numbers.side[side], tie.t);
     for (std::size_t end = 0; end < 2; ++end) {
       if (event.ray == to.cone_site[end] && event.ray_end == end) continue;  // on that ray by identity
-      const MaybeSign inside = maybe_sign(cone_side(numbers, to, end, p));
+      const MaybeSign inside = along[end] ? Sign::zero : maybe_sign(cone_side(numbers, to, end, p));
       if (inside == Sign::negative) return Answer::no;
       if (inside == Sign::zero) on_ray = true;
       if (!inside) open = true;
@@ -300,17 +304,45 @@ bool OutlineWalk::ties_at_corners(const Event& event) const {
   return false;
 }
 
-/// Whether the two are at one point by identity: mirror images in a side stand for one another along it.
-bool OutlineWalk::at_one_point(std::size_t side, const Event& a, const Event& b) const {
-  const auto alike = [&](std::uint32_t i, std::uint32_t j) { return i == j || contenders_.mirrored(i, j, side) != Sign::zero; };
+/// Whether a relay starts on a boundary ray of its parent that runs along the side, before the side or where it begins: then they tie all along it.
+bool OutlineWalk::tie_on_ray_along(std::size_t side, std::uint32_t parent, std::uint32_t relay) {
+  const int ray = contenders_.tangent_end(parent, relay);
+  if (ray == Contenders::kNotTangent || !contenders_.runs_along(ladder_, parent, static_cast<std::size_t>(ray), side)) return false;
+  const auto test = [&](const auto& numbers, robust::Stage) -> std::optional<bool> {
+    const auto &from = numbers.sites[contenders_[parent].site]->image, &on = numbers.sites[contenders_[relay].site]->image;
+    bool open = false;
+    for (const std::size_t c : {side, (side + 1) % 3}) {
+      const MaybeSign beyond = maybe_sign(dot(numbers.side[c].origin - on, on - from));
+      if (beyond == Sign::negative) return false;
+      open = open || !beyond;
+    }
+    return open ? std::nullopt : std::optional(true);
+  };
+  if (const auto known = test(ladder_.filter(), robust::Stage::filter)) return *known;
+  return ladder_.for_each_stage(test).value_or(false);
+}
+
+/// Whether the two are at one point by identity: waves that tie all along a side stand for one another there.
+bool OutlineWalk::at_one_point(std::size_t side, const Event& a, const Event& b) {
+  const auto alike = [&](std::uint32_t i, std::uint32_t j) {
+    return i == j || contenders_.mirrored(i, j, side) != Sign::zero || tie_on_ray_along(side, i, j) || tie_on_ray_along(side, j, i);
+  };
   return a.ray == FacetTessellation::kNoSite && b.ray == FacetTessellation::kNoSite && alike(a.from, b.from) && alike(a.to, b.to);
 }
 
 std::optional<bool> OutlineWalk::happens(std::size_t side, Event& event, const std::optional<Event>& previous) {
   if (ties_at_corners(event) || (previous && at_one_point(side, event, *previous))) return false;
-  const auto answer = ladder_.decide(
-      Predicate::edge_tie, [&](const auto& numbers) { return happens_in(numbers, side, event, previous); },
-      [&] { return describe(side, event, "overtaking"); });
+  auto answer = happens_in(ladder_.filter(), side, event, previous, {false, false});
+  if (answer) {
+    ladder_.count(Predicate::edge_tie, robust::Stage::filter);
+  } else {
+    std::array<bool, 2> along{};
+    for (std::size_t end = 0; contenders_[event.to].has_cone && end < 2; ++end)
+      along[end] = contenders_.runs_along(ladder_, event.to, end, side);
+    answer = ladder_.decide_beyond_filter(
+        Predicate::edge_tie, [&](const auto& numbers) { return happens_in(numbers, side, event, previous, along); },
+        [&] { return describe(side, event, "overtaking"); });
+  }
   if (!answer) return std::nullopt;
   event.on_ray = event.contact || *answer == Answer::on_ray;
   return *answer != Answer::no;

@@ -55,11 +55,13 @@ class OutlineWalk {
   std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
   bool ties_at_corners(const Event& event) const;
-  bool at_one_point(std::size_t side, const Event& a, const Event& b) const;
+  bool tie_on_ray_along(std::size_t side, std::uint32_t parent, std::uint32_t relay);
+  bool at_one_point(std::size_t side, const Event& a, const Event& b);
   std::optional<bool> happens(std::size_t side, Event& event, const std::optional<Event>& previous);
+  /// `along`: which boundary rays of `to` are known to run along the side.
   template <class NT>
   std::optional<Answer> happens_in(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event,
-                                   const std::optional<Event>& previous) const;
+                                   const std::optional<Event>& previous, std::array<bool, 2> along) const;
   template <class NT>
   predicates::SideTie<NT> parameter(const FacetNumbers<NT>& numbers, std::size_t side, const Event& event) const;
   robust::MaybeSign compare(std::size_t side, const Event& a, const Event& b);

@@ -84,23 +84,42 @@ Sign Ring::along_mirror(const Direction& change, const Direction& side) const {
   return side.kind == Direction::Kind::side ? sense : -sense;
 }
 
+/// Waves that come along one line grow alike.
+bool Ring::alike(std::uint32_t i, std::uint32_t j) { return i == j || same_direction(i, j) == true; }
+
 /// Whether the two are one line by identity: positive in the same sense, negative in the opposite one; zero if nothing is known.
-Sign Ring::same_line(const Direction& a, const Direction& b) const {
+Sign Ring::same_line(const Direction& a, const Direction& b) {
   using Kind = Direction::Kind;
   if (a == b) return Sign::positive;
   for (const Sign known : {along_mirror(a, b), along_mirror(b, a)})
     if (known != Sign::zero) return known;
-  if (a.kind == Kind::overtaking && b.kind == Kind::overtaking) return a.a == b.b && a.b == b.a ? Sign::negative : Sign::zero;
+  if (a.kind == Kind::overtaking && b.kind == Kind::overtaking) {
+    if (alike(a.a, b.b) && alike(a.b, b.a)) return Sign::negative;
+    return alike(a.a, b.a) && alike(a.b, b.b) ? Sign::positive : Sign::zero;
+  }
   const auto to_an_image = [](Kind kind) { return kind == Kind::away || kind == Kind::towards; };
   if (!to_an_image(a.kind) || !to_an_image(b.kind) || (a.a != b.a && same_[a.a * tied_.size() + b.a] <= 0)) return Sign::zero;
   return a.kind == b.kind ? Sign::positive : Sign::negative;
 }
 
+/// From a side on which the point lies to the line to an image, or back: on which side of that line the image lies, wherever the point is.
+MaybeSign Ring::turn_to_image(const Direction& side, const Direction& image, bool from_side) {
+  const bool against = (side.kind == Direction::Kind::back) != (image.kind == Direction::Kind::away);
+  const MaybeSign left = decide([&](const auto& numbers) {
+    const auto& line = numbers.side[side.a];
+    return maybe_sign(cross(line.direction, numbers.sites[contenders_[tied_[image.a].contender].site]->image - line.origin));
+  });
+  if (!left) return left;
+  return against == from_side ? -*left : *left;
+}
+
 MaybeSign Ring::turn(const Direction& a, const Direction& b) {
   if (same_line(a, b) != Sign::zero) return Sign::zero;
+  const Direction &side = is_side(a) ? a : b, &change = is_side(a) ? b : a;
+  if (is_side(side) && (change.kind == Direction::Kind::away || change.kind == Direction::Kind::towards))
+    return turn_to_image(side, change, is_side(a));
   const auto test = [&](const auto& numbers) { return maybe_sign(cross(vector(numbers, a), vector(numbers, b))); };
   // Mirrored waves take over from one another in the direction of the side.
-  const Direction &side = is_side(a) ? a : b, &change = is_side(a) ? b : a;
   if (is_side(side) && change.kind == Direction::Kind::overtaking && !test(ladder_.filter()) &&
       are_mirrored(change.a, change.b, side)) {
     ladder_.count(predicate_at(node_->kind), robust::Stage::algebra);
@@ -136,10 +155,15 @@ std::optional<bool> Ring::comes_before(const Direction& from, const Direction& a
 }
 
 /// On which side of a boundary ray the point lies; zero by identity where the ray is known to pass through it.
-MaybeSign Ring::at_ray(const Contender& wave, std::size_t end) {
+MaybeSign Ring::at_ray(std::uint32_t contender, std::size_t end) {
+  const Contender& wave = contenders_[contender];
   const bool at_cone_vertex = node_->kind == Node::Kind::corner && wave.cone[end] == waves_.corner[node_->where];
   const bool on_own_ray = node_->ray == wave.cone_site[end] && node_->ray_end == end;
   if (at_cone_vertex || on_own_ray) return Sign::zero;
+  if (node_->kind == Node::Kind::side && contenders_.runs_along(ladder_, contender, end, node_->where)) {
+    ladder_.count(Predicate::edge_tie, robust::Stage::identity);
+    return Sign::zero;
+  }
   return decide(
       [&](const auto& numbers) { return maybe_sign(cone_side(numbers, wave, end, node_point(waves_, numbers, *node_))); });
 }
@@ -172,7 +196,7 @@ bool Ring::load(const Node& node, std::span<const std::uint32_t> tied) {
     const Contender& c = contenders_[wave.contender];
     wave.starts_here = node.kind == Node::Kind::corner && c.corner == node.where;
     for (std::size_t end = 0; c.has_cone && end < 2; ++end) {
-      const MaybeSign side = at_ray(c, end);
+      const MaybeSign side = at_ray(wave.contender, end);
       if (!side) return false;
       wave.on_ray[end] = *side == Sign::zero;
     }
@@ -267,8 +291,8 @@ MaybeSign Ring::better_after(std::uint32_t i, std::uint32_t j, const Direction& 
   if (!same) return std::nullopt;
   if (*same) return behind(i, j);
   const bool is_change = d.kind == Direction::Kind::overtaking;
-  if (is_change && d.a == j && d.b == i) return Sign::positive;
-  if (is_change && d.a == i && d.b == j) return Sign::negative;
+  if (is_change && alike(d.a, j) && alike(d.b, i)) return Sign::positive;
+  if (is_change && alike(d.a, i) && alike(d.b, j)) return Sign::negative;
   const MaybeSign sign = slope(i, j, d);
   if (sign != Sign::zero) return sign;
   return decide([&](const auto& numbers) { return maybe_sign(cross(vector(numbers, d), difference(numbers, i, j))); });
@@ -319,12 +343,14 @@ std::optional<std::uint32_t> Ring::along_side(const Direction& d, Beside beside,
     const std::uint32_t a = tied_[i].contender, b = tied_[inward].contender;
     if (tied_[i].starts_here || contenders_[a].root == contenders_[b].root) continue;
     if (i == inward) continue;
+    const auto one_line = same_direction(i, inward);
+    if (!one_line) return std::nullopt;
+    if (*one_line) continue;
     const MaybeSign gain = slope(i, inward, d);
     if (gain && *gain != Sign::zero) continue;
     const auto visible = seen(i, d, beside);
-    const auto one_line = same_direction(i, inward);
-    if (!gain || !visible || !one_line) return std::nullopt;
-    if (!*visible || *one_line) continue;
+    if (!gain || !visible) return std::nullopt;
+    if (!*visible) continue;
     const MaybeSign lighter = behind(i, inward);
     if (!lighter) return std::nullopt;
     if (*lighter == Sign::positive) return i;

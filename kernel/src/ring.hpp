@@ -42,7 +42,7 @@ class Ring {
   };
 
   bool load(const Node& node, std::span<const std::uint32_t> tied);
-  robust::MaybeSign at_ray(const Contender& wave, std::size_t end);
+  robust::MaybeSign at_ray(std::uint32_t contender, std::size_t end);
   std::optional<std::uint32_t> winner_after(const Direction& d);
   enum class Beside : std::uint8_t { before, after };
   std::optional<bool> seen(std::uint32_t i, const Direction& d, Beside beside);
@@ -59,7 +59,9 @@ class Ring {
   std::optional<bool> comes_before(const Direction& from, const Direction& a, const Direction& b);
   std::optional<int> quadrant(const Direction& from, const Direction& d);
   robust::Sign along_mirror(const Direction& change, const Direction& side) const;
-  robust::Sign same_line(const Direction& a, const Direction& b) const;
+  robust::Sign same_line(const Direction& a, const Direction& b);
+  bool alike(std::uint32_t i, std::uint32_t j);
+  robust::MaybeSign turn_to_image(const Direction& side, const Direction& image, bool from_side);
   robust::MaybeSign turn(const Direction& a, const Direction& b);
   robust::MaybeSign along(const Direction& a, const Direction& b);
 
