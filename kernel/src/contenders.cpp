@@ -162,9 +162,23 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
          ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return heavier(numbers); }) == Sign::positive;
 }
 
-/// The boundary ray of the wave on which a relay that it eclipses lies, if any: several vertices may follow one another on a ray.
+/// Whether a line from the wave's image through the relay's may enter the facet beyond it. The relay lies outside the side that it comes in over, or
+/// is a corner: then the wave's image must lie farther out, or not outside the opposite side.
+bool Contenders::may_enter_beyond(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
+  if (relay.corner != FacetSite::kNoCorner) return !wave.enters_over((relay.corner + 1u) % 3);
+  const auto inwards = [&](const auto& numbers, robust::Stage) {
+    const auto &from = numbers.sites[wave.site]->image, &to = numbers.sites[relay.site]->image;
+    return maybe_sign(cross(numbers.side[waves_.sites[relay.site].side].direction, to - from));
+  };
+  const auto known = inwards(ladder.filter(), robust::Stage::filter);
+  return (known ? known : ladder.for_each_stage(inwards)).value_or(Sign::positive) == Sign::positive;
+}
+
+/// The boundary ray of the wave on which a relay that it eclipses lies and goes on into the facet, if any: several vertices may follow one
+/// another on a ray.
 int Contenders::ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
-  for (std::size_t end = 0; wave.has_cone && end < 2; ++end) {
+  if (!wave.has_cone || !may_enter_beyond(ladder, wave, relay)) return kNotTangent;
+  for (std::size_t end = 0; end < 2; ++end) {
     const auto side = [&](const auto& numbers) {
       return maybe_sign(cone_side(numbers, wave, end, numbers.sites[relay.site]->image));
     };
@@ -190,6 +204,7 @@ bool Contenders::runs_along(FacetLadder& ladder, std::size_t i, std::size_t end,
 
 Sign Contenders::mirrored(std::size_t i, std::size_t j, std::size_t side) const {
   const auto proved = [&](std::size_t entering, std::size_t other) {
+    if (!list_[entering].enters_over(side) || !may_be_mirror_images(list_[entering], list_[other], side)) return false;
     const auto [known, added] = mirrored_.try_emplace({entering, other, side}, false);
     if (added) known->second = are_mirror_images(list_[entering], list_[other], side);
     return known->second;
@@ -198,15 +213,18 @@ Sign Contenders::mirrored(std::size_t i, std::size_t j, std::size_t side) const 
   return proved(j, i) ? Sign::negative : Sign::zero;
 }
 
-/// Asks for a proof only where doubles cannot exclude it.
-bool Contenders::are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const {
+/// As far as doubles can tell.
+bool Contenders::may_be_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const {
   using F = FacetWaves::F;
-  if (!entering.enters_over(side)) return false;
   const auto &a = waves_.site(entering.site, F()), &b = waves_.site(other.site, F());
   const auto line = predicates::side_line(waves_.frame(F()), side);
   const auto apart = a.image - b.image, twice_the_middle = (a.image - line.origin) + (b.image - line.origin);
   for (const F& x : {a.weight - b.weight, dot(apart, line.direction), cross(twice_the_middle, line.direction)})
     if (maybe_sign(x).value_or(Sign::zero) != Sign::zero) return false;
+  return true;
+}
+
+bool Contenders::are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const {
   for (std::size_t e = 0; e < waves_.sites.size(); ++e) {
     if (representative_[e] != entering.site || waves_.sites[e].window == kNone || waves_.sites[e].side != side) continue;
     for (std::size_t o = 0; o < waves_.sites.size(); ++o)

@@ -78,8 +78,10 @@ class Contenders {
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   void find_tangencies(FacetLadder& ladder);
   bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
+  bool may_enter_beyond(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   int ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
 
+  bool may_be_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const;
   bool are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const;
 
   FacetWaves& waves_;

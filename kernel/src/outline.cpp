@@ -62,6 +62,7 @@ bool OutlineWalk::pass_corner(std::size_t c, const std::vector<std::uint32_t>& s
 
 bool OutlineWalk::walk_side(std::size_t side, std::uint32_t last) {
   std::optional<Event> previous;
+  passed_.clear();
   std::uint32_t from_node = Piece::kNoNode;
   for (;;) {
     const std::uint32_t current = list_.back().contender;
@@ -188,16 +189,32 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
 
 /// What would have to happen for `to` to take over from `from` on the side, if identity does not exclude it.
 std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::uint32_t from, std::uint32_t to) {
-  if (!contenders_.tangent(from, to)) {
-    if (contenders_.eclipses(from, to) || contenders_.eclipses(to, from)) return std::nullopt;
+  const auto [a, b] = twins_that_touch(side, from, to);
+  if (!contenders_.tangent(a, b)) {
+    if (contenders_.eclipses(a, b) || contenders_.eclipses(b, a)) return std::nullopt;
     if (const auto event = contact(side, from, to); event || ladder_.failed()) return event;
     const Event event{from, to, FacetTessellation::kNoSite, 0, false, false, std::nullopt};
     if (tie_is_at_corner(side, event)) return std::nullopt;
     return event;
   }
-  const auto ray = tangent_event(contenders_, side, from, to);
+  const auto ray = tangent_event(contenders_, side, a, b);
   if (!ray) return std::nullopt;
   return Event{from, to, contenders_[ray->parent].cone_site[ray->end], ray->end, false, false, std::nullopt};
+}
+
+/// Along a side, mirror images in it are as far: `from` and `to`, or mirror images of them which are tangent or one of which eclipses
+/// the other.
+std::array<std::uint32_t, 2> OutlineWalk::twins_that_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const {
+  const auto touch = [&](std::uint32_t i, std::uint32_t j) {
+    return contenders_.tangent(i, j) || contenders_.eclipses(i, j) || contenders_.eclipses(j, i);
+  };
+  if (touch(from, to)) return {from, to};
+  const auto stands_for = [&](std::uint32_t i, std::uint32_t j) { return i != from && i != to && contenders_.mirrored(i, j, side) != Sign::zero; };
+  for (std::uint32_t i = 0; i < contenders_.size(); ++i)
+    if (touch(i, to) && stands_for(i, from)) return {i, to};
+  for (std::uint32_t i = 0; i < contenders_.size(); ++i)
+    if (touch(from, i) && stands_for(i, to)) return {from, i};
+  return {from, to};
 }
 
 /// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it
@@ -327,11 +344,21 @@ bool OutlineWalk::at_one_point(std::size_t side, const Event& a, const Event& b)
   const auto alike = [&](std::uint32_t i, std::uint32_t j) {
     return i == j || contenders_.mirrored(i, j, side) != Sign::zero || tie_on_ray_along(side, i, j) || tie_on_ray_along(side, j, i);
   };
-  return a.ray == FacetTessellation::kNoSite && b.ray == FacetTessellation::kNoSite && alike(a.from, b.from) && alike(a.to, b.to);
+  return a.is_tie() && b.is_tie() && (a.ray == FacetTessellation::kNoSite) == (b.ray == FacetTessellation::kNoSite) && alike(a.from, b.from) &&
+         alike(a.to, b.to);
+}
+
+/// Whether the event's ray meets the line of the side in a corner, the vertex that bounds the cone.
+bool OutlineWalk::ray_is_through_corner(std::size_t side, const Event& event) const {
+  if (event.ray == FacetTessellation::kNoSite) return false;
+  const VertexId v = waves_.sites[event.ray].cone[event.ray_end];
+  return v == waves_.corner[side] || v == waves_.corner[(side + 1) % 3];
 }
 
 std::optional<bool> OutlineWalk::happens(std::size_t side, Event& event, const std::optional<Event>& previous) {
-  if (ties_at_corners(event) || (previous && at_one_point(side, event, *previous))) return false;
+  // What came into view, or touched, at the last event does not do so again.
+  const bool was_there = std::find(passed_.begin(), passed_.end(), event.to) != passed_.end();
+  if ((was_there && event.to != event.from && event.ray != FacetTessellation::kNoSite) || ray_is_through_corner(side, event) || ties_at_corners(event) || (previous && at_one_point(side, event, *previous))) return false;
   auto answer = happens_in(ladder_.filter(), side, event, previous, {false, false});
   if (answer) {
     ladder_.count(Predicate::edge_tie, robust::Stage::filter);
@@ -375,9 +402,8 @@ bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
   Ring ring(waves_, contenders_, ladder_);
   // Where a view ends, a wave that only touched along the side may be next, without crossing anything.
   const bool any_ray = std::any_of(tied.begin(), tied.end(), [](const Event& event) { return event.ray != FacetTessellation::kNoSite; });
-  for (std::uint32_t other = 0; any_ray && other < contenders_.size(); ++other)
-    if (std::find(waves.begin(), waves.end(), other) == waves.end() && ring.ties(node, first.from, other) == true) waves.push_back(other);
-  if (ladder_.failed()) return false;
+  if (any_ray && !ring.add_ties(node, waves)) return false;
+  passed_ = waves;
   std::vector<std::uint32_t> ahead{first.to, first.from};
   if (waves.size() > 2 || tied.size() > 1 || first.on_ray) {
     ahead = ring.regions(node, waves);

@@ -42,6 +42,8 @@ class OutlineWalk {
     std::uint8_t ray_end = 0;
     bool on_ray = false;  ///< the point lies on a boundary ray of `to` or `from`, other than `ray`
     bool contact = false;
+    /// Whether `to` and `from` cross or touch there, which along one side happens at one point in this sense.
+    bool is_tie() const { return !contact && to != from; }
     std::optional<predicates::SideTie<FacetWaves::F>> filtered;  ///< its parameter in the filter's numbers, once asked for
   };
   enum class Answer { no, yes, on_ray };
@@ -52,6 +54,8 @@ class OutlineWalk {
   std::optional<std::vector<Event>> next_events(std::size_t side, std::uint32_t from, const std::optional<Event>& previous);
   std::optional<std::vector<Event>> filtered_events(std::size_t side, std::uint32_t from, const std::optional<Event>& previous);
   std::optional<Event> candidate(std::size_t side, std::uint32_t from, std::uint32_t to);
+  std::array<std::uint32_t, 2> twins_that_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const;
+  bool ray_is_through_corner(std::size_t side, const Event& event) const;
   std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
   bool ties_at_corners(const Event& event) const;
@@ -79,6 +83,7 @@ class OutlineWalk {
   CornerOrder corners_;
   FacetTessellation& result_;
   std::vector<Occurrence> list_;
+  std::vector<std::uint32_t> passed_;  ///< the waves known to tie, and to be seen, at the side's last event
 };
 
 }  // namespace gvd::kernel

@@ -77,10 +77,21 @@ PlanePoint<NT> Ring::vector(const FacetNumbers<NT>& numbers, const Direction& d)
   return {gain.y, -gain.x};
 }
 
-/// Mirror images in a side tie along it; turning through its direction, the wave that comes over it gives way.
-Sign Ring::along_mirror(const Direction& change, const Direction& side) const {
+/// Whether i and j come along lines that are mirrored in a side, by identity: positive if i comes in over the side, negative if j does.
+Sign Ring::mirrored(std::uint32_t i, std::uint32_t j, std::size_t side) {
+  for (std::uint32_t a = 0; a < tied_.size(); ++a) {
+    for (std::uint32_t b = 0; b < tied_.size(); ++b) {
+      const Sign sense = contenders_.mirrored(tied_[a].contender, tied_[b].contender, side);
+      if (sense != Sign::zero && alike(i, a) && alike(j, b)) return sense;
+    }
+  }
+  return Sign::zero;
+}
+
+/// Turning through the direction of a side, a wave that comes over it gives way to its mirror image.
+Sign Ring::along_mirror(const Direction& change, const Direction& side) {
   if (change.kind != Direction::Kind::overtaking || !is_side(side)) return Sign::zero;
-  const Sign sense = contenders_.mirrored(tied_[change.a].contender, tied_[change.b].contender, side.a);
+  const Sign sense = mirrored(change.a, change.b, side.a);
   return side.kind == Direction::Kind::side ? sense : -sense;
 }
 
@@ -113,8 +124,23 @@ MaybeSign Ring::turn_to_image(const Direction& side, const Direction& image, boo
   return against == from_side ? -*left : *left;
 }
 
+/// Whether the direction is to or from an image on the line of the side on which the point lies.
+bool Ring::is_on_side_line(const Direction& d) {
+  if (node_->kind != Node::Kind::side || (d.kind != Direction::Kind::away && d.kind != Direction::Kind::towards)) return false;
+  std::optional<bool>& known = tied_[d.a].on_side_line;
+  if (!known) {
+    const auto off = [&](const auto& numbers, robust::Stage) {
+      const auto& line = numbers.side[node_->where];
+      return maybe_sign(cross(line.direction, numbers.sites[contenders_[tied_[d.a].contender].site]->image - line.origin));
+    };
+    known = !off(ladder_.filter(), robust::Stage::filter) && ladder_.for_each_stage(off) == Sign::zero;
+  }
+  return *known;
+}
+
 MaybeSign Ring::turn(const Direction& a, const Direction& b) {
   if (same_line(a, b) != Sign::zero) return Sign::zero;
+  if (is_on_side_line(a) && is_on_side_line(b)) return Sign::zero;
   const Direction &side = is_side(a) ? a : b, &change = is_side(a) ? b : a;
   if (is_side(side) && (change.kind == Direction::Kind::away || change.kind == Direction::Kind::towards))
     return turn_to_image(side, change, is_side(a));
@@ -154,12 +180,26 @@ std::optional<bool> Ring::comes_before(const Direction& from, const Direction& a
   return *order == Sign::positive;
 }
 
+bool Ring::is_on_node_ray(const Node& node, std::uint32_t wave, std::size_t end) const {
+  return node.ray == contenders_[wave].cone_site[end] && node.ray_end == end;
+}
+
+/// A wave ties with a relay of its own on their common ray and nowhere else: whether one that starts on this ray is known to tie too.
+template <class Known>
+bool Ring::relay_on_ray(std::uint32_t wave, std::size_t end, const Known& is_known) const {
+  for (std::uint32_t relay = 0; relay < contenders_.size(); ++relay)
+    if (contenders_.tangent_end(wave, relay) == static_cast<int>(end) && is_known(relay)) return true;
+  return false;
+}
+
 /// On which side of a boundary ray the point lies; zero by identity where the ray is known to pass through it.
 MaybeSign Ring::at_ray(std::uint32_t contender, std::size_t end) {
   const Contender& wave = contenders_[contender];
+  const auto is_tied = [&](std::uint32_t other) {
+    return std::any_of(tied_.begin(), tied_.end(), [&](const Wave& tied) { return tied.contender == other; });
+  };
   const bool at_cone_vertex = node_->kind == Node::Kind::corner && wave.cone[end] == waves_.corner[node_->where];
-  const bool on_own_ray = node_->ray == wave.cone_site[end] && node_->ray_end == end;
-  if (at_cone_vertex || on_own_ray) return Sign::zero;
+  if (at_cone_vertex || is_on_node_ray(*node_, contender, end) || relay_on_ray(contender, end, is_tied)) return Sign::zero;
   if (node_->kind == Node::Kind::side && contenders_.runs_along(ladder_, contender, end, node_->where)) {
     ladder_.count(Predicate::edge_tie, robust::Stage::identity);
     return Sign::zero;
@@ -168,14 +208,33 @@ MaybeSign Ring::at_ray(std::uint32_t contender, std::size_t end) {
       [&](const auto& numbers) { return maybe_sign(cone_side(numbers, wave, end, node_point(waves_, numbers, *node_))); });
 }
 
-std::optional<bool> Ring::ties(const Node& node, std::uint32_t first, std::uint32_t other) {
-  const Contender &a = contenders_[first], &b = contenders_[other];
+/// Whether two waves have one distance at the node by identity: mirror images in its side, or a relay and its parent on their common ray.
+bool Ring::tie_by_identity(const Node& node, std::uint32_t i, std::uint32_t j) const {
+  const auto on_common_ray = [&](std::uint32_t parent, std::uint32_t relay) {
+    const int end = contenders_.tangent_end(parent, relay);
+    return end != Contenders::kNotTangent && is_on_node_ray(node, parent, static_cast<std::size_t>(end));
+  };
+  return on_common_ray(i, j) || on_common_ray(j, i) ||
+         (node.kind == Node::Kind::side && contenders_.mirrored(i, j, node.where) != Sign::zero);
+}
+
+std::optional<bool> Ring::ties(const Node& node, std::span<const std::uint32_t> known, std::uint32_t other) {
+  const Contender &a = contenders_[known.front()], &b = contenders_[other];
+  const auto is_known = [&](std::uint32_t wave) {
+    return std::any_of(known.begin(), known.end(), [&](std::uint32_t i) { return i == wave || tie_by_identity(node, i, wave); });
+  };
+  const bool as_far = is_known(other);
+  std::array<bool, 2> on_ray{};
+  for (std::size_t end = 0; b.has_cone && end < 2; ++end)
+    on_ray[end] = is_on_node_ray(node, other, end) || (as_far && relay_on_ray(other, end, is_known));
   const auto test = [&](const auto& numbers) -> std::optional<bool> {
     const auto p = node_point(waves_, numbers, node);
-    const MaybeSign farther = maybe_sign(distance(*numbers.sites[b.site], p) - distance(*numbers.sites[a.site], p));
+    const MaybeSign farther =
+        as_far ? Sign::zero : maybe_sign(distance(*numbers.sites[b.site], p) - distance(*numbers.sites[a.site], p));
     if (farther == Sign::positive) return false;
     bool open = !farther;
     for (std::size_t end = 0; b.has_cone && end < 2; ++end) {
+      if (on_ray[end]) continue;
       const MaybeSign inside = maybe_sign(cone_side(numbers, b, end, p));
       if (inside == Sign::negative) return false;
       open = open || !inside;
@@ -183,14 +242,32 @@ std::optional<bool> Ring::ties(const Node& node, std::uint32_t first, std::uint3
     return open ? std::nullopt : std::optional(true);
   };
   return ladder_.decide(predicate_at(node.kind), test, [&] {
-    return "whether " + contenders_.name(other) + " ties with " + contenders_.name(first) + " at " + place_name(node);
+    return "whether " + contenders_.name(other) + " ties with " + contenders_.name(known.front()) + " at " + place_name(node);
   });
+}
+
+/// What ties by identity is asked first, since the numbers of the rest may be beyond all proof.
+bool Ring::add_ties(const Node& node, std::vector<std::uint32_t>& known) {
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t i = 0; i < contenders_.size(); ++i)
+    if (std::find(known.begin(), known.end(), i) == known.end()) others.push_back(i);
+  while (!others.empty()) {
+    auto other = std::find_if(others.begin(), others.end(), [&](std::uint32_t i) {
+      return std::any_of(known.begin(), known.end(), [&](std::uint32_t j) { return tie_by_identity(node, i, j); });
+    });
+    if (other == others.end()) other = others.begin();
+    const auto tied = ties(node, known, *other);
+    if (!tied) return false;
+    if (*tied) known.push_back(*other);
+    others.erase(other);
+  }
+  return true;
 }
 
 bool Ring::load(const Node& node, std::span<const std::uint32_t> tied) {
   node_ = &node;
   tied_.clear();
-  for (const std::uint32_t contender : tied) tied_.push_back({contender, false, {false, false}});
+  for (const std::uint32_t contender : tied) tied_.push_back({contender, false, {false, false}, std::nullopt});
   same_.assign(tied.size() * tied.size(), 0);
   for (Wave& wave : tied_) {
     const Contender& c = contenders_[wave.contender];
@@ -248,6 +325,8 @@ MaybeSign Ring::behind(std::uint32_t i, std::uint32_t j) {
   if (contenders_.eclipses(a, b)) return Sign::positive;
   if (contenders_.eclipses(b, a)) return Sign::negative;
   if (contenders_[a].root == contenders_[b].root) return Sign::zero;
+  for (std::size_t side = 0; side < 3; ++side)
+    if (contenders_.mirrored(a, b, side) != Sign::zero) return Sign::zero;
   return decide([&](const auto& numbers) {
     return maybe_sign(numbers.sites[contenders_[b].site]->weight - numbers.sites[contenders_[a].site]->weight);
   });
@@ -262,7 +341,7 @@ bool Ring::is_side(const Direction& d) const {
 /// along it. Unlike a slope, this needs no number of the point itself.
 bool Ring::are_mirrored(std::uint32_t i, std::uint32_t j, const Direction& d) {
   const Contender &a = contenders_[tied_[i].contender], &b = contenders_[tied_[j].contender];
-  if (contenders_.mirrored(tied_[i].contender, tied_[j].contender, d.a) != Sign::zero) return true;
+  if (mirrored(i, j, d.a) != Sign::zero) return true;
   const bool same_weight = a.root == b.root;
   const auto gap = [&](const auto& numbers, robust::Stage) {
     return maybe_sign(predicates::mirrored_gap(numbers.side[d.a], *numbers.sites[a.site], *numbers.sites[b.site], same_weight));

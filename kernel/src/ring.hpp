@@ -25,8 +25,10 @@ class Ring {
   /// Pre: `tied` are contenders whose closed cones contain the point, which they reach at one distance; no nearer one does.
   std::vector<std::uint32_t> regions(const Node& node, std::span<const std::uint32_t> tied);
 
-  /// Whether `other` reaches the node at the distance of `first`, which is nearest there, and sees it. Empty on failure.
-  std::optional<bool> ties(const Node& node, std::uint32_t first, std::uint32_t other);
+  /// Whether `other` reaches the node at the distance of the waves known to be nearest there, and sees it. Empty on failure.
+  std::optional<bool> ties(const Node& node, std::span<const std::uint32_t> known, std::uint32_t other);
+  /// Adds to the waves that are known to tie at the node and to be nearest there whatever else does so and sees it. False on failure.
+  bool add_ties(const Node& node, std::vector<std::uint32_t>& known);
 
  private:
   struct Direction {
@@ -39,6 +41,7 @@ class Ring {
     std::uint32_t contender = 0;
     bool starts_here = false;                  ///< the wave of the corner itself
     std::array<bool, 2> on_ray{false, false};  ///< the point lies on this boundary ray of the cone
+    std::optional<bool> on_side_line;          ///< the image lies on the line of the node's side; asked for when needed
   };
 
   bool load(const Node& node, std::span<const std::uint32_t> tied);
@@ -58,8 +61,14 @@ class Ring {
   std::optional<Direction> next_change(const Direction& from, std::uint32_t winner);
   std::optional<bool> comes_before(const Direction& from, const Direction& a, const Direction& b);
   std::optional<int> quadrant(const Direction& from, const Direction& d);
-  robust::Sign along_mirror(const Direction& change, const Direction& side) const;
+  robust::Sign mirrored(std::uint32_t i, std::uint32_t j, std::size_t side);
+  robust::Sign along_mirror(const Direction& change, const Direction& side);
   robust::Sign same_line(const Direction& a, const Direction& b);
+  bool is_on_node_ray(const Node& node, std::uint32_t wave, std::size_t end) const;
+  template <class Known>
+  bool relay_on_ray(std::uint32_t wave, std::size_t end, const Known& is_known) const;
+  bool tie_by_identity(const Node& node, std::uint32_t i, std::uint32_t j) const;
+  bool is_on_side_line(const Direction& d);
   bool alike(std::uint32_t i, std::uint32_t j);
   robust::MaybeSign turn_to_image(const Direction& side, const Direction& image, bool from_side);
   robust::MaybeSign turn(const Direction& a, const Direction& b);

@@ -258,7 +258,7 @@ bool BisectorVertices::add_eclipsed_ties(const Triple& t, const FacetTessellatio
     const bool is_new = std::find(t.waves.begin(), t.waves.end(), rival) == t.waves.end() &&
                         std::find(ties_.begin(), ties_.end(), rival) == ties_.end();
     if (!is_new || std::none_of(t.waves.begin(), t.waves.end(), eclipsed)) continue;
-    if (Ring(waves_, contenders_, ladder_).ties(node, t.pivot, rival) == true) ties_.push_back(rival);
+    if (Ring(waves_, contenders_, ladder_).ties(node, t.waves, rival) == true) ties_.push_back(rival);
   }
   return !ladder_.failed();
 }
