@@ -50,7 +50,7 @@ struct Placement {
 /// A strip along a band, from column 0 to its last one, between an upper and a lower bank with a corner at each column.
 class BandStrip {
  public:
-  /// Where a corner is to lie on a column: on the upper or lower bank, at y.
+  /// Where a corner is to lie on a column: on the upper or lower bank, at y. Two of one column must have the upper one above.
   struct Anchor {
     std::size_t column;
     int y;
@@ -82,11 +82,11 @@ class BandStrip {
     int x = 0, z = 0;
     const auto column = [&](std::size_t c) {
       Column next{x, z, -static_cast<int>(1 + random.below(6)), static_cast<int>(1 + random.below(6))};
-      for (const Anchor& a : anchors_) {
-        if (a.column != c) continue;
-        (a.upper ? next.upper : next.lower) = a.y;
-        (a.upper ? next.lower : next.upper) = a.upper ? a.y - 1 - static_cast<int>(random.below(6)) : a.y + 1 + static_cast<int>(random.below(6));
-      }
+      const int apart = next.upper - next.lower;
+      for (const Anchor& a : anchors_)
+        if (a.column == c) (a.upper ? next.upper : next.lower) = a.y;
+      for (const Anchor& a : anchors_)
+        if (a.column == c && next.lower >= next.upper) (a.upper ? next.lower : next.upper) = a.upper ? a.y - apart : a.y + apart;
       columns_.push_back(next);
     };
     column(0);
