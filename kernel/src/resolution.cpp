@@ -11,6 +11,7 @@
 #include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/robust/rational.hpp"
 #include "gvd/robust/rounding.hpp"
+#include "window_images.hpp"
 
 namespace gvd::kernel {
 
@@ -66,8 +67,10 @@ void Resolution::resolve(predicates::Decisions& decisions) {
     return field_.distance[a] != field_.distance[b] ? field_.distance[a] < field_.distance[b] : a < b;
   });
   begun_.assign(labels_.size(), 0);
+  images_ = std::make_unique<WindowImages>(frames_, field_);
   for (const VertexId v : order)
     if (labels_[v] == kNone && !resolve_vertex(v, decisions)) throw InternalError("vertex " + std::to_string(v) + " is reached by no candidate");
+  images_.reset();
 }
 
 /// A root of v that is not resolved yet lies farther than v by more than all errors, or the two are closer than doubles can tell: then it comes
@@ -138,7 +141,7 @@ void keep_nearest(std::vector<std::uint32_t>& list, const std::vector<Ball<T>>& 
 }  // namespace
 
 std::vector<std::uint32_t> Resolution::nearest_of(const std::vector<std::uint32_t>& candidates, VertexId v,
-                                                  predicates::Decisions& decisions) const {
+                                                  predicates::Decisions& decisions) {
   std::vector<std::uint32_t> list = candidates;
   const std::size_t before = list.size();
   double best = std::numeric_limits<double>::infinity();
@@ -202,17 +205,15 @@ HalfedgeId Resolution::edge_between(VertexId a, VertexId b) const {
   return found;
 }
 
-Ball<DoubleDouble> Resolution::length(const Candidate& c, VertexId v) const {
+Ball<DoubleDouble> Resolution::length(const Candidate& c, VertexId v) {
   const double unit = predicates::unit<DoubleDouble>(0);
   if (c.via == v) return Ball<DoubleDouble>(std::ldexp(sources_[source_of_vertex_[v]].weight, -frames_.scale()));
   if (c.window == kNone) {
     const DoubleDouble edge = frames_.in_double_double(edge_between(c.via, v)).length;
     return distance_[c.via] + Ball<DoubleDouble>(edge, predicates::kUnfoldingStep * unit * edge.hi);
   }
-  const predicates::Strip strip = strip_of(frames_.mesh(), field_, c.window);
-  const auto frame = [&](HalfedgeId h) -> const predicates::EdgeFrame<DoubleDouble>& { return frames_.in_double_double(h); };
-  const auto at = predicates::unfold<DoubleDouble, false>(strip, frame);
-  return distance_[c.via] + predicates::last_leg(at.image, frame(field_.windows[c.window].halfedge()), unit);
+  const auto& frame = frames_.in_double_double(field_.windows[c.window].halfedge());
+  return distance_[c.via] + predicates::last_leg((*images_)(c.window), frame, unit);
 }
 
 Ball<Mpfr> Resolution::length(const Candidate& c, VertexId v, int bits) const {

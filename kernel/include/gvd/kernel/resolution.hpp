@@ -39,6 +39,7 @@ struct SourceVertex {
 };
 
 class ExactUnfoldings;
+class WindowImages;
 
 /// Decides, vertex by vertex in the order of distance, which candidates are nearest, what their labels are, and which double is nearest to the
 /// distance. All distances in scaled units except where mesh units are named. After `resolve` the const members may be called by several threads.
@@ -84,10 +85,10 @@ class Resolution {
  private:
   bool resolve_vertex(VertexId v, predicates::Decisions& decisions);
   bool resolve_root(VertexId v, VertexId root, predicates::Decisions& decisions);
-  std::vector<std::uint32_t> nearest_of(const std::vector<std::uint32_t>& list, VertexId v, predicates::Decisions& decisions) const;
+  std::vector<std::uint32_t> nearest_of(const std::vector<std::uint32_t>& list, VertexId v, predicates::Decisions& decisions);
   /// Empty if the exact lengths are not to be had.
   std::optional<std::vector<std::uint32_t>> nearest_exactly(const std::vector<std::uint32_t>& list, VertexId v) const;
-  robust::Ball<robust::DoubleDouble> length(const Candidate& c, VertexId v) const;
+  robust::Ball<robust::DoubleDouble> length(const Candidate& c, VertexId v);
   robust::Ball<robust::Mpfr> length(const Candidate& c, VertexId v, int bits) const;
   /// A path to v: the weight of the source, and its straight legs from v backwards.
   struct Leg {
@@ -112,6 +113,7 @@ class Resolution {
   std::vector<LabelSetId> labels_;
   std::vector<std::uint8_t> proved_, begun_;
   std::vector<robust::Ball<robust::DoubleDouble>> distance_;
+  std::unique_ptr<WindowImages> images_;  // while `resolve` runs
   std::unique_ptr<ExactUnfoldings> exact_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gvd/predicates/frame.hpp"
+#include "gvd/robust/double_double.hpp"
 #include "gvd/robust/rational.hpp"
 
 /// From the sides of a face, as vectors in space, to the frames of its directed edges, in any number type.
@@ -38,6 +39,10 @@ std::array<EdgeFrame<T>, 3> face_frames(const Vector<T>& ab, const Vector<T>& bc
            {dot_b / ll_bc, dot_c / ll_bc, area2 / ll_bc, sqrt(ll_bc)},
            {dot_c / ll_ca, dot_a / ll_ca, area2 / ll_ca, sqrt(ll_ca)}}};
 }
+
+/// The same numbers, by the processor's own fused multiply-add where it has one.
+std::array<EdgeFrame<robust::DoubleDouble>, 3> face_frames(const Vector<robust::DoubleDouble>& ab, const Vector<robust::DoubleDouble>& bc,
+                                                           const Vector<robust::DoubleDouble>& ca);
 
 /// A face in exact arithmetic: dot products at the corners, squared sides, and N (four times the squared area).
 struct ExactFace {

@@ -68,6 +68,9 @@ Disc<T> cross(const Disc<T>& z, const EdgeFrame<T>& side, bool left, double unit
   return result;
 }
 
+/// The same numbers, by the processor's own fused multiply-add where it has one.
+Disc<robust::DoubleDouble> cross(const Disc<robust::DoubleDouble>& z, const EdgeFrame<robust::DoubleDouble>& side, bool left, double unit_of_t);
+
 template <class T>
 robust::Ball<T> ball_x(const Disc<T>& z) {
   return {z.mid.x, z.radius};

@@ -1,0 +1,26 @@
+#include "window_images.hpp"
+
+namespace gvd::kernel {
+
+WindowImages::WindowImages(const Frames& frames, const DistanceField& field) : frames_(frames), field_(field), slot_(field.windows.size(), kNone) {}
+
+const WindowImages::Image& WindowImages::operator()(WindowId window) {
+  for (WindowId w = window; w != kNone && slot_[w] == kNone; w = field_.windows[w].parent) path_.push_back(w);
+  for (; !path_.empty(); path_.pop_back()) {
+    images_.push_back(from_parent(path_.back()));
+    slot_[path_.back()] = static_cast<std::uint32_t>(images_.size() - 1);
+  }
+  return images_[slot_[window]];
+}
+
+WindowImages::Image WindowImages::from_parent(WindowId window) const {
+  const WindowRecord& record = field_.windows[window];
+  const HalfedgeId side = frames_.mesh().twin(record.halfedge());
+  const double unit = predicates::unit<robust::DoubleDouble>(0);
+  const auto& frame = frames_.in_double_double(side);
+  if (record.parent == kNone) return predicates::unfold_first(frame, unit).image;
+  const bool left = side == Mesh::prev(field_.windows[record.parent].halfedge());
+  return cross(images_[slot_[record.parent]], frame, left, unit);
+}
+
+}  // namespace gvd::kernel
