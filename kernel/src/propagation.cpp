@@ -38,8 +38,7 @@ Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& ki
   field_.corner_sees_face.assign(m, 0);
   field_.distance.assign(n, infinity);
   field_.error.assign(n, 0);
-  waiting_.resize(m);
-  sights_.resize(m);
+  sides_.resize(m);
   upper_.assign(n, infinity);
   settled_.assign(n, 0);
   degree_.assign(n, 0);
@@ -229,7 +228,7 @@ void Propagation::emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow) {
   wave.window = emitted_[outgoing] = static_cast<WindowId>(field_.windows.size());
   field_.windows.push_back({kNone, target, v, field_.first_window[target]});
   field_.first_window[target] = wave.window;
-  List& list = waiting_[target];
+  List& list = sides_[target].waiting;
   if (list.first == kNone) {
     list.first = w;
   } else {
@@ -283,10 +282,20 @@ void Propagation::push_lists_at(VertexId v) {
 }
 
 void Propagation::push(HalfedgeId h) {
-  List& list = waiting_[h];
+  List& list = sides_[h].waiting;
   if (list.queued || list.first == kNone) return;
   list.queued = true;
   fifo_.push_back(h);
+}
+
+/// What crossing the face above h will need first.
+void Propagation::prefetch(HalfedgeId h) const {
+  const Wave* const wave = &waves_[sides_[h].waiting.first];
+  __builtin_prefetch(wave);
+  __builtin_prefetch(&wave->next);
+  const Frame* const frame = &frames_[3 * Mesh::face(h)];
+  __builtin_prefetch(frame);
+  __builtin_prefetch(frame + 2);
 }
 
 /// False if the caller wants to stop.
@@ -297,7 +306,8 @@ bool Propagation::drain() {
     to_send_again_.clear();
     if (fifo_head_ == fifo_.size()) break;
     const HalfedgeId h = fifo_[fifo_head_++];
-    waiting_[h].queued = false;
+    if (fifo_head_ < fifo_.size()) prefetch(fifo_[fifo_head_]);
+    sides_[h].waiting.queued = false;
     cross_face(h);
     work_ += 1 + kept_;
     if (work_ >= next_poll_ && !may_go_on()) return false;

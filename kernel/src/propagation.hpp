@@ -22,7 +22,7 @@ class Propagation {
   using Frame = predicates::EdgeFrame<double>;
 
   /// A window while it waits to cross the face: its numbers in the frame of its half-edge.
-  struct Wave : WindowInterval {
+  struct alignas(128) Wave : WindowInterval {
     Image cone0, cone1;
     std::uint16_t begin_turns, end_turns;  // faces crossed in a row about the origin and the target of the half-edge
     std::uint32_t steps;                   // faces crossed
@@ -40,11 +40,16 @@ class Propagation {
     std::uint32_t first = kNone, last = kNone, size = 0;
     bool queued = false;
   };
+  /// What waits at a half-edge.
+  struct Side {
+    ApexSight sight;
+    List waiting;
+  };
   /// Where the apex lies: seen, or beside the cone.
   enum class Sight : std::uint8_t { inside, on_ray_0, on_ray_1, beyond_0, beyond_1 };
-  struct Crossing {
-    Sight sight;
-    double apex_distance;
+  struct Listed {
+    double begin;
+    std::uint32_t wave;
   };
   struct Exit;
 
@@ -64,14 +69,18 @@ class Propagation {
   bool cut_at_shadow(const Shadow& shadow, HalfedgeId outgoing, Wave& wave);
   void push_lists_at(VertexId v);
   void push(HalfedgeId h);
+  void prefetch(HalfedgeId h) const;
   bool drain();
   bool may_go_on();
   void cross_face(HalfedgeId h);
   void trim_list(HalfedgeId h);
-  Crossing see_apex(std::uint32_t wave, HalfedgeId h);
+  std::size_t sort_waiting(HalfedgeId h);
+  Sight see_apex(std::uint32_t wave, HalfedgeId h, const Frame& frame, double inverse_length);
+  static double apex_distance(const Wave& wave, const Frame& frame);
+  static bool is_longer_to_apex(const Wave& wave, const Frame& frame, const ApexSight& best);
   Sight locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame, double disc);
   Sight decide_apex(const Wave& wave, HalfedgeId h);
-  Exit exit_over(HalfedgeId side, VertexId third, bool left) const;
+  Exit exit_over(HalfedgeId side, VertexId third, double parent_length, bool left) const;
   template <bool kLeft>
   void make_child(const Wave& wave, bool at_apex, double parent_reach, Exit& exit);
   template <bool kLeft>
@@ -95,10 +104,9 @@ class Propagation {
   std::vector<Wave> waves_;
   std::uint32_t free_wave_ = kNone;
   std::size_t free_waves_ = 0;
-  std::vector<List> waiting_;
+  std::vector<Side> sides_;
   std::vector<HalfedgeId> fifo_;
   std::size_t fifo_head_ = 0;
-  std::vector<ApexSight> sights_;
   std::vector<double> upper_;                 // per vertex: certain upper bound of D
   std::vector<std::uint8_t> settled_;
   std::vector<std::uint16_t> degree_;         // faces at a vertex
@@ -109,8 +117,8 @@ class Propagation {
   std::vector<std::uint8_t> sends_again_;     // settled vertices that are waiting to send their waves again
   std::vector<VertexId> to_send_again_;
   Shadow shadow_;
-  std::vector<std::uint32_t> list_;           // waves of the half-edge at hand: the first kept_ are left
-  std::vector<Crossing> crossings_;           // of these
+  std::vector<Listed> list_;                  // waves of the half-edge at hand: the first kept_ are left
+  std::vector<Sight> sights_of_list_;         // of these
   std::size_t kept_ = 0;
   struct Entry {
     double distance;

@@ -67,10 +67,24 @@ void Resolution::resolve(predicates::Decisions& decisions) {
     return field_.distance[a] != field_.distance[b] ? field_.distance[a] < field_.distance[b] : a < b;
   });
   begun_.assign(labels_.size(), 0);
-  images_ = std::make_unique<WindowImages>(frames_, field_);
+  images_ = std::make_unique<WindowImages>(frames_, field_, windows_of_candidates());
   for (const VertexId v : order)
     if (labels_[v] == kNone && !resolve_vertex(v, decisions)) throw InternalError("vertex " + std::to_string(v) + " is reached by no candidate");
   images_.reset();
+}
+
+/// Of those that doubles cannot tell from the nearest.
+std::vector<WindowId> Resolution::windows_of_candidates() const {
+  std::vector<WindowId> windows;
+  for (const std::uint32_t first : field_.first_candidate) {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::uint32_t c = first; c != kNone; c = field_.candidates[c].next) best = std::min(best, field_.candidates[c].distance + field_.candidates[c].error);
+    for (std::uint32_t c = first; c != kNone; c = field_.candidates[c].next) {
+      const Candidate& candidate = field_.candidates[c];
+      if (candidate.window != kNone && candidate.distance - candidate.error <= best) windows.push_back(candidate.window);
+    }
+  }
+  return windows;
 }
 
 /// A root of v that is not resolved yet lies farther than v by more than all errors, or the two are closer than doubles can tell: then it comes

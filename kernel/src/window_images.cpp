@@ -2,7 +2,22 @@
 
 namespace gvd::kernel {
 
-WindowImages::WindowImages(const Frames& frames, const DistanceField& field) : frames_(frames), field_(field), slot_(field.windows.size(), kNone) {}
+WindowImages::WindowImages(const Frames& frames, const DistanceField& field, const std::vector<WindowId>& wanted)
+    : frames_(frames), field_(field), slot_(field.windows.size(), kNone) {
+  std::uint32_t count = 0;
+  for (const WindowId w : wanted) slot_[w] = 0;
+  for (WindowId w = static_cast<WindowId>(slot_.size()); w-- > 0;) {
+    if (slot_[w] == kNone) continue;
+    ++count;
+    if (const WindowId parent = field.windows[w].parent; parent != kNone) slot_[parent] = 0;
+  }
+  images_.reserve(count);
+  for (WindowId w = 0; w < slot_.size(); ++w) {
+    if (slot_[w] == kNone) continue;
+    images_.push_back(from_parent(w));
+    slot_[w] = static_cast<std::uint32_t>(images_.size() - 1);
+  }
+}
 
 const WindowImages::Image& WindowImages::operator()(WindowId window) {
   for (WindowId w = window; w != kNone && slot_[w] == kNone; w = field_.windows[w].parent) path_.push_back(w);

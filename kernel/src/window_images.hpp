@@ -14,8 +14,9 @@ class WindowImages {
  public:
   using Image = predicates::Disc<robust::DoubleDouble>;
 
-  WindowImages(const Frames& frames, const DistanceField& field);
-  /// Valid until the next call.
+  /// Makes those of the windows `wanted` and of all they come from, in the order in which windows were made: parents first.
+  WindowImages(const Frames& frames, const DistanceField& field, const std::vector<WindowId>& wanted);
+  /// Of any window; one that was not wanted is made now. Valid until the next call.
   const Image& operator()(WindowId window);
 
  private:

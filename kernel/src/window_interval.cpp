@@ -11,6 +11,9 @@ namespace {
 using predicates::kDistanceError;
 using predicates::kUnit;
 
+/// Overlaps shorter than this are left to both windows: that costs next to nothing, and most neighbours have been cut at their tie before.
+constexpr double kShortOverlap = 0x1p-16;
+
 /// A stretch of the edge; empty unless from < to.
 struct Stretch {
   double from = 1, to = 0;
@@ -90,7 +93,7 @@ double Difference::leave_tie(double end, int sign_elsewhere) const {
 /// Narrows [left, right], at whose ends the difference has opposite signs.
 void Difference::bracket_root(double g0, double g1, double& left, double& right) const {
   double gl = g0, gr = g1;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < 2 && right - left > kShortOverlap; ++i) {
     const double x = left + (right - left) * (gl / (gl - gr));
     if (!(x > left && x < right)) return;
     const double width = right - left;
@@ -133,6 +136,8 @@ bool cut(WindowInterval& loser, Stretch shorter, const WindowInterval& winner) {
 }  // namespace
 
 Trim trim(WindowInterval& first, WindowInterval& second, double length) {
+  const bool second_goes_on = first.begin < second.begin && first.end < second.end;
+  if (second_goes_on && first.end - second.begin < kShortOverlap) return Trim::none;
   Difference difference(first, second, length);
   if (difference.is_empty()) return Trim::none;
   Stretch first_shorter, second_shorter;

@@ -9,6 +9,7 @@
 #include "gvd/kernel/unfolding.hpp"
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
+#include "gvd/predicates/longer.hpp"
 #include "gvd/predicates/strip.hpp"
 #include "gvd/robust/gmp.hpp"
 #include "gvd/robust/rational.hpp"
@@ -273,6 +274,54 @@ TEST(LandingBounds, MarginCoversEveryPairOfPoints) {
     }
   }
   EXPECT_LT(tightest, 3);  // the margin is not far from what is needed
+}
+
+// Rays through points beside p, both points anywhere in their discs.
+TEST(LandingBounds, ReachCoversThePointsBesideIt) {
+  Random random(8);
+  int known = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double y = -std::ldexp(random.uniform(0.5, 1), static_cast<int>(random.below(20)) - 10);
+    const Complex<double> image{random.uniform(-2, 2) * (random.below(2) == 0 ? 1 : 100), y};
+    const double fraction = std::ldexp(random.uniform(), -static_cast<int>(random.below(30)));
+    const Complex<double> p{image.x + fraction * (random.uniform() - image.x), y * (1 - fraction)};
+    const double disc = (1 + std::fabs(image.x) + std::fabs(image.y)) * std::ldexp(16 * kU, static_cast<int>(random.below(20)));
+    const Complex<double> along{random.uniform(-2, 2), random.uniform(-2, 2)};
+    const double slack = std::ldexp(random.uniform(), -static_cast<int>(random.below(40)));
+    const auto landing = predicates::land(image, p, disc, slack, along, std::hypot(along.x, along.y));
+    if (landing.reach == predicates::kNoLanding.margin) continue;
+    ++known;
+    for (const double t : {slack, -slack, random.uniform(-slack, slack)}) {
+      const mpq_class a = disc * random.uniform(-0.7, 0.7), b = disc * random.uniform(-0.7, 0.7), c = disc * random.uniform(-0.7, 0.7);
+      const mpq_class x = p.x + mpq_class(t) * along.x + b, z = p.y + mpq_class(t) * along.y + c;
+      ASSERT_LE(abs(exact_landing(image.x + a, image.y + b, x, z) - landing.at), mpq_class(landing.reach)) << i;
+    }
+  }
+  EXPECT_GT(known, 5000);
+}
+
+TEST(DistanceBounds, WhatIsLongerByItsSquareIsLonger) {
+  Random random(9);
+  int longer = 0, shorter = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double weight = random.below(3) == 0 ? 0 : std::ldexp(random.uniform(), -static_cast<int>(random.below(30)));
+    const double length = std::ldexp(random.uniform(0.5, 1), -static_cast<int>(random.below(30)));
+    const double dx = random.uniform(-100, 100), y = random.uniform(-100, 0);
+    const double error = std::ldexp(random.uniform(), -40 - static_cast<int>(random.below(10)));
+    const double path = (weight + length * std::sqrt(dx * dx + y * y)) * (1 + random.uniform(-400, 200) * kU) - error;
+    if (path < 0) continue;
+    if (!predicates::is_certainly_longer(weight, length * length, dx * dx + y * y, error, path)) {
+      ++shorter;
+      continue;
+    }
+    ++longer;
+    // weight + length |(dx, y)| exceeds path + error by 32u of itself
+    const mpq_class rest = (mpq_class(path) + error) * (1 + mpq_class(predicates::kDistanceError)) - weight;
+    const mpq_class squared = mpq_class(length) * length * (mpq_class(dx) * dx + mpq_class(y) * y);
+    ASSERT_TRUE(rest < 0 || squared > rest * rest) << i;
+  }
+  EXPECT_GT(longer, 5000);
+  EXPECT_GT(shorter, 5000);
 }
 
 }  // namespace

@@ -83,6 +83,7 @@ class Resolution {
   const LabelSets& sets() const noexcept { return sets_; }
 
  private:
+  std::vector<WindowId> windows_of_candidates() const;
   bool resolve_vertex(VertexId v, predicates::Decisions& decisions);
   bool resolve_root(VertexId v, VertexId root, predicates::Decisions& decisions);
   std::vector<std::uint32_t> nearest_of(const std::vector<std::uint32_t>& list, VertexId v, predicates::Decisions& decisions);
