@@ -51,10 +51,9 @@ std::string Contenders::name(std::size_t i) const {
   return "site " + std::to_string(list_[i].site) + " (root " + std::to_string(list_[i].root) + ")";
 }
 
-/// The image is one for windows that pass a flat corner of the facet on either side: identity. Elsewhere it takes the exact
+/// Pre: doubles do not separate the images. The image is one for windows that pass a flat corner of the facet on either side: identity. Elsewhere it takes the exact
 /// numbers.
 bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const {
-  if (separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image)) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const bool round_corner = left.cone[1] == waves_.corner[k] && right.cone[0] == waves_.corner[k];
     if (round_corner && waves_.corner_is_flat[k] && left.ties_at_corner(right, k)) {
@@ -92,6 +91,7 @@ void Contenders::merge_same_images(FacetLadder& ladder) {
     for (std::size_t j = 0; j < list_.size(); ++j) {
       Contender &left = list_[i], &right = list_[j];
       if (i == j || !left.has_cone || !right.has_cone || left.root != right.root) continue;
+      if (separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image)) continue;
       if (!may_touch(ladder, left, right) || !same_image(ladder, left, right) || !touching(ladder, left, right)) continue;
       left.cone[1] = right.cone[1];
       left.attains_cone[1] = right.attains_cone[1];

@@ -136,11 +136,24 @@ bool EdgeJoiner::same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton&
 }
 
 bool EdgeJoiner::identical(const View& view, const Event& a, const Event& b) const {
-  const auto same = [&](std::uint32_t left_piece, std::uint32_t right_piece) {
-    const Piece &l = view.of_left.pieces[left_piece], &r = view.of_right.pieces[right_piece];
-    return l.labels == r.labels && same_wave(in_, view.h, view.left, l.site, view.right, r.site);
-  };
-  return same(a.before, b.before) && same(a.after, b.after);
+  const Piece &left_before = view.of_left.pieces[a.before], &right_before = view.of_right.pieces[b.before];
+  const Piece &left_after = view.of_left.pieces[a.after], &right_after = view.of_right.pieces[b.after];
+  return left_before.labels == right_before.labels && left_after.labels == right_after.labels &&
+         same_wave(in_, view.h, view.left, left_before.last_site, view.right, right_before.last_site) &&
+         same_wave(in_, view.h, view.left, left_after.site, view.right, right_after.site);
+}
+
+bool EdgeJoiner::are_identical(HalfedgeId h, const Skeleton& left, const Skeleton& right) const {
+  const HalfedgeId twin = in_.refined.twin(h);
+  const View view{h, twin, left, right, left.sides[h % 3], right.sides[twin % 3].reversed()};
+  const auto is_essential = [](const Event& event) { return event.essential; };
+  auto l = view.of_left.events.begin(), r = view.of_right.events.begin();
+  for (;; ++l, ++r) {
+    l = std::find_if(l, view.of_left.events.end(), is_essential);
+    r = std::find_if(r, view.of_right.events.end(), is_essential);
+    if (l == view.of_left.events.end() || r == view.of_right.events.end()) return l == view.of_left.events.end() && r == view.of_right.events.end();
+    if (!identical(view, *l, *r)) return false;
+  }
 }
 
 EdgeJoiner::Order EdgeJoiner::compare(const View& view, std::size_t left_event, std::size_t right_event) {

@@ -40,23 +40,35 @@ FacetFilter::FacetFilter(const Contenders& contenders, const FacetLadder& ladder
     wave.has_cone = contenders[i].has_cone;
     for (std::size_t end = 0; wave.has_cone && end < 2; ++end) {
       wave.ray[end] = make_ray(numbers, contenders[i], end);
-      cut_stretches(wave.ray[end], wave.stretch);
+      cut_stretches(wave.ray[end], contenders[i], wave);
     }
   }
 }
 
-/// The side of a boundary ray is linear along a side of the facet, so its upper bounds at the corners bound it in between.
-void FacetFilter::cut_stretches(const Ray& ray, std::array<Stretch, 3>& stretch) {
-  std::array<double, 3> most;
+/// The side of a boundary ray is linear along a side of the facet, so its bounds at the corners bound it in between. A wave sees the corners that it
+/// attains.
+void FacetFilter::cut_stretches(const Ray& ray, const Contender& contender, Wave& wave) {
+  std::array<double, 3> most, least;
   for (std::size_t k = 0; k < 3; ++k) {
     const Bounded& at = ray.at_corner[k];
-    most[k] = at.value + at.error + 0x1p-50 * (std::fabs(at.value) + at.error);
+    const double error = at.error + 0x1p-50 * (std::fabs(at.value) + at.error);
+    most[k] = at.value + error;
+    least[k] = contender.attains_corner[k] ? std::max(0.0, at.value - error) : at.value - error;
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    const double from = most[k], to = most[(k + 1) % 3];
-    if (from < 0 && to < 0) stretch[k] = {2, -1};
-    if (from < 0 && to >= 0) stretch[k].low = std::max(stretch[k].low, predicates::below_zero_of(from, to));
-    if (from >= 0 && to < 0) stretch[k].high = std::min(stretch[k].high, predicates::above_zero_of(from, to));
+    Stretch &may = wave.stretch[k], &does = wave.seen[k];
+    if (const double from = most[k], to = most[(k + 1) % 3]; from < 0 && to < 0)
+      may = {2, -1};
+    else if (from < 0)
+      may.low = std::max(may.low, predicates::below_zero_of(from, to));
+    else if (to < 0)
+      may.high = std::min(may.high, predicates::above_zero_of(from, to));
+    if (const double from = least[k], to = least[(k + 1) % 3]; from < 0 && to < 0)
+      does = {2, -1};
+    else if (from < 0)
+      does.low = std::max(does.low, predicates::above_zero_of(from, to));
+    else if (to < 0)
+      does.high = std::min(does.high, predicates::below_zero_of(from, to));
   }
 }
 

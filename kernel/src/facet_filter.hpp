@@ -21,9 +21,10 @@ class FacetFilter {
     double from_error = 0, along_error = 0;
     std::array<Bounded, 3> at_corner;  ///< as cone_side: positive inside
   };
-  /// Where a wave may be seen along a side: certainly nowhere else.
+  /// A part of a side.
   struct Stretch {
     double low = 0, high = 1;
+    bool contains(double from, double to) const { return low <= from && to <= high; }
   };
   struct Wave {
     predicates::DoubleWave wave;
@@ -32,7 +33,8 @@ class FacetFilter {
     std::array<Point, 3> away_at_corner{};    ///< unit vector from the image, the gradient of the distance; zero where it has none
     bool has_cone = false;
     std::array<Ray, 2> ray{};
-    std::array<Stretch, 3> stretch{};  ///< per side
+    std::array<Stretch, 3> stretch{};  ///< per side: where the wave may be seen, certainly nowhere else
+    std::array<Stretch, 3> seen{};     ///< per side: where it is certainly seen
   };
   /// A directed side; `error` bounds that of each of its points.
   struct Side {
@@ -58,7 +60,7 @@ class FacetFilter {
   Bounded cone_side(std::uint32_t i, std::size_t end, const Point& p, double error) const;
 
  private:
-  static void cut_stretches(const Ray& ray, std::array<Stretch, 3>& stretch);
+  static void cut_stretches(const Ray& ray, const Contender& contender, Wave& wave);
   Ray make_ray(const FacetNumbers<FacetWaves::F>& numbers, const Contender& wave, std::size_t end) const;
 
   std::vector<Wave> waves_;

@@ -42,9 +42,15 @@ FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKin
     corner_labels[k] = resolution.labels(corner[k]);
     corner_is_flat[k] = kinds[corner[k]] == VertexKind::flat;
   }
+  constexpr std::size_t kUsual = 12;
+  sites.reserve(kUsual);
+  sites_.reserve(kUsual);
+  Arrivals arrivals;
+  arrivals.all.reserve(kUsual);
+  arrivals.kept.reserve(kUsual);
   for (std::uint8_t k = 0; k < 3; ++k) {
     if (field_.corner_sees_face[3 * f + k] != 0) add_corner(k);
-    add_side(k);
+    add_side(k, arrivals);
   }
 }
 
@@ -75,16 +81,17 @@ const Strip& FieldWaves::strip(std::size_t i) const {
 }
 
 /// Sorts out the windows of one side as the propagation does, with all of them and the final distances at hand.
-void FieldWaves::add_side(std::uint8_t side) {
-  std::vector<Arrival> list;
+void FieldWaves::add_side(std::uint8_t side, Arrivals& arrivals) {
+  auto& [list, kept, unfolded] = arrivals;
+  list.clear();
+  kept.clear();
   for (WindowId w = field_.first_window[3 * face + side]; w != kNone; w = field_.windows[w].next) {
     Arrival arrival;
-    if (arrive(w, side, arrival)) list.push_back(std::move(arrival));
+    if (arrive(w, side, arrivals, arrival)) list.push_back(arrival);
   }
   std::sort(list.begin(), list.end(),
             [](const Arrival& a, const Arrival& b) { return a.begin != b.begin ? a.begin < b.begin : a.window < b.window; });
   const double length = resolution_.frames()(3 * face + side).length;
-  std::vector<Arrival> kept;
   for (Arrival& arrival : list) {
     bool keep = true;
     while (!kept.empty() && keep) {
@@ -93,24 +100,24 @@ void FieldWaves::add_side(std::uint8_t side) {
       if (t != Trim::drop_first) break;
       kept.pop_back();
     }
-    if (keep) kept.push_back(std::move(arrival));
+    if (keep) kept.push_back(arrival);
   }
-  for (Arrival& arrival : kept) add_window(std::move(arrival), side);
+  for (const Arrival& arrival : kept) add_window(arrival, side);
 }
 
 /// False if the window is certainly nowhere shortest in the facet.
-bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrival& arrival) const {
+bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, Arrival& arrival) const {
   const Frames& frames = resolution_.frames();
   if (field_.windows[window].dominated()) return false;
   const VertexId root = field_.windows[window].root;
   if (root == corner[side] || root == corner[(side + 1) % 3]) return false;  // the edge itself is the shorter way to its points
-  const UnfoldedWindows<double>::Entry* known = unfolded_ == nullptr ? nullptr : unfolded_->find(window);
-  arrival.unfolded = known != nullptr ? *known : UnfoldedWindows<double>(frames, field_).add(window);
-  if (arrival.unfolded.dead) return false;
+  arrival.unfolded = unfolded_ == nullptr ? nullptr : unfolded_->find(window);
+  if (arrival.unfolded == nullptr) arrival.unfolded = &arrivals.unfolded.emplace_back(UnfoldedWindows<double>::alone(frames, field_, window));
+  if (arrival.unfolded->dead) return false;
   const EdgeFrame<double>& frame = frames(3 * face + side);
   const Ball<double> weight = narrowed(resolution_.distance(root));
   arrival.window = window;
-  const auto& [image, cone0, cone1] = arrival.unfolded.at;
+  const auto& [image, cone0, cone1] = arrival.unfolded->at;
   const predicates::Landing l0 = predicates::land(image.mid, cone0.mid, std::max(image.radius, cone0.radius));
   const predicates::Landing l1 = predicates::land(image.mid, cone1.mid, std::max(image.radius, cone1.radius));
   arrival.image = image.mid;
@@ -135,7 +142,7 @@ bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrival& arrival) co
            up(corner[(side + 1) % 3]) + (1 - arrival.begin) * frame.length * (1 + 0x1p-48) < low(arrival.begin));
 }
 
-void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
+void FieldWaves::add_window(const Arrival& arrival, std::uint8_t side) {
   const Frames& frames = resolution_.frames();
   const WindowId window = arrival.window;
   const VertexId root = field_.windows[window].root;
@@ -144,12 +151,12 @@ void FieldWaves::add_window(Arrival&& arrival, std::uint8_t side) {
   site.side = side;
   site.root = root;
   site.labels = resolution_.labels(root);
-  note_cone(site, arrival.unfolded);
+  note_cone(site, *arrival.unfolded);
   const std::uint8_t opposite = static_cast<std::uint8_t>((side + 2) % 3);
   site.attains_corner[opposite] = resolution_.attains(window, corner[opposite]);
   site.path_to_corner[opposite] = path_through(window);
   const double unit = predicates::unit<double>(0);
-  sites_.push_back(make_site<double>(site, arrival.unfolded.at, narrowed(resolution_.distance(root)), frames(3 * face), unit));
+  sites_.push_back(make_site<double>(site, arrival.unfolded->at, narrowed(resolution_.distance(root)), frames(3 * face), unit));
   sites.push_back(site);
 }
 
@@ -228,23 +235,18 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
 bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
   const Mesh& mesh = resolution_.frames().mesh();
   const VertexId v = sites[relay].root;
-  const auto& steps = strip(parent).steps;
-  std::size_t left = steps.size();
+  const auto before = [&](WindowId window) { return field_.windows[window].parent; };
+  const auto crossed = [&](WindowId window) { return field_.windows[window].halfedge(); };
   WindowId w = sites[parent].window;
-  if (sites[relay].window != kNone) {
-    const auto& own = strip(relay).steps;
-    if (own.size() >= left) return false;
-    for (std::size_t i = own.size(); i-- > 0; w = field_.windows[w].parent)
-      if (steps[--left].side != own[i].side) return false;
-    if (steps[--left].side != strip(relay).opposite) return false;
-    w = field_.windows[w].parent;
-  }
-  for (;; w = field_.windows[w].parent) {
-    const HalfedgeId h = field_.windows[w].halfedge();
+  for (WindowId own = sites[relay].window; own != kNone; own = before(own), w = before(w))
+    if (w == kNone || crossed(w) != crossed(own)) return false;
+  for (; w != kNone; w = before(w)) {
+    const HalfedgeId h = crossed(w);
     if (mesh.apex(h) == v) return resolution_.attains(w, v);
     if (mesh.origin(h) != v && mesh.target(h) != v) return false;
-    if (left-- == 0) return resolution_.attains_along_edge(sites[parent].root, v);
+    if (before(w) == kNone) return resolution_.attains_along_edge(sites[parent].root, v);
   }
+  return false;
 }
 
 /// The sides crossed when one turns about a vertex, from the first of them until face `end` is reached.
@@ -302,7 +304,6 @@ bool FieldWaves::has_relay_beyond_flat(std::size_t parent, std::size_t relay) co
 /// only if no step since has left it.
 void FieldWaves::note_cone(FacetSite& site, const UnfoldedWindows<double>::Entry& unfolded) const {
   const Mesh& mesh = resolution_.frames().mesh();
-  WindowId first = site.window;
   for (std::size_t c = 0; c < 2; ++c) {
     const WindowId bound = unfolded.bound[c];
     std::uint64_t path;
@@ -311,8 +312,7 @@ void FieldWaves::note_cone(FacetSite& site, const UnfoldedWindows<double>::Entry
       site.attains_cone[c] = resolution_.attains(bound, site.cone[c]);
       path = path_through(bound);
     } else {
-      while (field_.windows[first].parent != kNone) first = field_.windows[first].parent;
-      const HalfedgeId h = field_.windows[first].halfedge();
+      const HalfedgeId h = field_.windows[unfolded.first].halfedge();
       site.cone[c] = c == 0 ? mesh.origin(h) : mesh.target(h);
       site.attains_cone[c] = resolution_.attains_along_edge(site.root, site.cone[c]);
       path = path_along_edge(site.root);

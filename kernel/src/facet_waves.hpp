@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <span>
@@ -45,11 +46,16 @@ class FieldWaves final : public FacetWaves {
   /// A window that may be nearest somewhere in the facet, while they are sorted out.
   struct Arrival : WindowInterval {
     WindowId window;
-    UnfoldedWindows<double>::Entry unfolded;
+    const UnfoldedWindows<double>::Entry* unfolded;
   };
-  void add_side(std::uint8_t side);
-  bool arrive(WindowId window, std::uint8_t side, Arrival& arrival) const;
-  void add_window(Arrival&& arrival, std::uint8_t side);
+  /// While they are sorted out: room that the three sides share.
+  struct Arrivals {
+    std::vector<Arrival> all, kept;
+    std::deque<UnfoldedWindows<double>::Entry> unfolded;  ///< those that nobody knew
+  };
+  void add_side(std::uint8_t side, Arrivals& arrivals);
+  bool arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, Arrival& arrival) const;
+  void add_window(const Arrival& arrival, std::uint8_t side);
   void add_corner(std::uint8_t k);
   using Sides = std::vector<HalfedgeId>;
   static Sides sides_of(const predicates::Strip& strip);

@@ -100,9 +100,8 @@ std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::filtered_events(std:
   ladder_.count(Predicate::edge_tie, robust::Stage::filter, next->decisions);
   std::vector<Event> events;
   if (!next->exists) return events;
-  const double middle = 0.5 * (next->at.low + next->at.high), radius = (next->at.high - next->at.low) * (0.5 + 0x1p-40) + 0x1p-54;
   Event event{from, next->to, FacetTessellation::kNoSite, 0, false, false,
-              predicates::SideTie<FacetWaves::F>{Existence::proved, FacetWaves::F(middle, radius)}};
+              predicates::SideTie<FacetWaves::F>{Existence::proved, next->at.parameter()}};
   if (next->ray) {
     event.ray = contenders_[next->ray->parent].cone_site[next->ray->end];
     event.ray_end = next->ray->end;

@@ -25,6 +25,7 @@ class OvertakingFilter {
   /// A place on the side: certainly in (low, high).
   struct Place {
     double low = 0, high = 0;
+    FacetWaves::F parameter() const { return {0.5 * (low + high), (high - low) * (0.5 + 0x1p-40) + 0x1p-54}; }
   };
   /// The last event passed: `from` was overtaken at `at`.
   struct Passed {
@@ -41,18 +42,23 @@ class OvertakingFilter {
   /// The first wave that takes over from `from` after `passed`, or after the beginning of the side; empty if doubles cannot tell.
   std::optional<Next> next(std::size_t side, std::uint32_t from, const std::optional<Passed>& passed);
 
+  /// Chooses what the following two ask about: the side, and the wave that may be overtaken.
+  void look_from(std::size_t side, std::uint32_t from) { side_ = side, from_ = from; }
+  /// Whether d_to - d_from certainly has no zero in [begin, end].
+  bool keeps_sign(std::uint32_t to, double begin, double end, int halvings) const;
+  /// Encloses the zero where d_to - d_from falls. Pre: it is positive at `begin` and negative at `end`.
+  std::optional<Place> locate(std::uint32_t to, double begin, double end) const;
+
  private:
   enum class Finding { none, one, unknown };
   enum class Seen { no, yes, unknown };
 
   Finding falling_zero(std::uint32_t to) const;
   Finding ahead(std::uint32_t to) const;
-  bool keeps_sign(std::uint32_t to, double begin, double end, int halvings) const;
   bool settle(std::uint32_t to);
   bool judge(std::uint32_t to);
   bool judge_ray(std::uint32_t to, const RayEvent& event);
   bool offer(std::uint32_t to, const Place& at, const std::optional<RayEvent>& ray);
-  std::optional<Place> locate(std::uint32_t to, double begin, double end) const;
   std::optional<Place> locate_ray(const RayEvent& event, bool inward) const;
   Seen sees(std::uint32_t to, const Place& at, const std::optional<RayEvent>& ray) const;
 

@@ -62,10 +62,14 @@ class Builder {
         const auto index = static_cast<std::uint32_t>(view.pieces.size());
         view.events.push_back({piece.from, index - 1, index, false});
       }
-      view.pieces.push_back({piece.site, labels(piece.site)});
+      view.pieces.push_back({piece.site, labels(piece.site), last_site(piece)});
       last_end = piece.to;
     }
     if (view.pieces.empty() || !is_corner(last_end)) not_a_subdivision(skeleton_.face, "a side is not covered");
+  }
+
+  std::uint32_t last_site(const TessPiece& piece) const {
+    return tess_.borders_only && piece.to != TessPiece::kNoNode ? tess_.nodes[piece.to].defining[0] : piece.site;
   }
 
   /// A region that touches the outline in one point only.
@@ -90,15 +94,18 @@ class Builder {
     std::uint32_t sector = first;
     for (std::size_t turned = 0; turned < spokes.size(); ++turned) {
       const auto next = std::find_if(spokes.begin() + static_cast<std::ptrdiff_t>(turned), spokes.end(),
-                                     [&](const SiteSpoke& s) { return s.right == sector; });
+                                     [&](const SiteSpoke& s) { return are_one(s.right, sector); });
       if (next == spokes.end()) not_a_subdivision(skeleton_.face, "arcs at a node do not follow one another");
       std::iter_swap(spokes.begin() + static_cast<std::ptrdiff_t>(turned), next);
       const SiteSpoke& spoke = spokes[turned];
       if (labels(spoke.right) != labels(spoke.left)) skeleton_.spokes.back().push_back(spoke.spoke);
       sector = spoke.left;
     }
-    if (sector != last) not_a_subdivision(skeleton_.face, "arcs at a node do not close");
+    if (!are_one(sector, last)) not_a_subdivision(skeleton_.face, "arcs at a node do not close");
   }
+
+  /// Whether two sites at a node stand for one sector.
+  bool are_one(std::uint32_t a, std::uint32_t b) const { return a == b || (tess_.borders_only && labels(a) == labels(b)); }
 
   /// The sites in the first and the last sector of a node, counter-clockwise.
   std::pair<std::uint32_t, std::uint32_t> outer_sectors(std::uint32_t n) const {
@@ -141,7 +148,8 @@ class Builder {
 
 SideView SideView::reversed() const {
   SideView view;
-  view.pieces.assign(pieces.rbegin(), pieces.rend());
+  view.pieces.reserve(pieces.size());
+  for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) view.pieces.push_back({piece->last_site, piece->labels, piece->site});
   const auto count = static_cast<std::uint32_t>(pieces.size());
   for (auto event = events.rbegin(); event != events.rend(); ++event)
     view.events.push_back({event->node, count - 1 - event->after, count - 1 - event->before, event->essential});
@@ -154,7 +162,7 @@ Skeleton make_uniform_skeleton(FaceId face, LabelSetId labels) {
   Skeleton skeleton;
   skeleton.face = face;
   skeleton.only_label = labels;
-  for (auto& side : skeleton.sides) side.pieces.push_back({kNone, labels});
+  for (auto& side : skeleton.sides) side.pieces.push_back({kNone, labels, kNone});
   return skeleton;
 }
 

@@ -218,7 +218,7 @@ class Solver {
       auto waves = std::make_unique<FieldWaves>(*s_.resolution, s_.kinds, several[i], &unfolded);
       face_labels_[several[i]] = waves->only_label();
       if (is_one_source(face_labels_[several[i]])) return;
-      tessellations_[i] = tessellate(*waves, decisions);
+      tessellations_[i] = tessellate_borders(*waves, decisions);
       waves->forget_frames();
       waves_[i] = std::move(waves);
     });

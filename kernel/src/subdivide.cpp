@@ -14,6 +14,7 @@ class Subdivider {
 
   Subdivision run() {
     make_skeletons();
+    complete_skeletons();
     check_uniform_faces();
     join_sides();
     make_vertex_places();
@@ -47,6 +48,33 @@ class Subdivider {
       if (all_decided(decisions_)) throw;
       return {.face = facet.face, .undecided = true};  // it is built on something undecided
     }
+  }
+
+  /// Borders alone are enough where both facets of an edge show the same by identity. Elsewhere the waves between them play a part.
+  void complete_skeletons() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::uint32_t f = 0; f < s_.facets.size(); ++f) {
+        for (std::uint32_t k = 0; k < 3 && has_borders_only(s_.facets[f]); ++k) {
+          const HalfedgeId h = 3 * s_.facets[f].face + k;
+          const Skeleton* other = decided_facet(mesh_.twin(h));
+          if (other == nullptr || other->waves == nullptr || joiner_.are_identical(h, s_.facets[f], *other)) continue;
+          complete(f);
+          const std::uint32_t g = s_.facet_of[other->face];
+          if (has_borders_only(*other)) complete(g);
+          changed = true;
+        }
+      }
+    }
+  }
+
+  static bool has_borders_only(const Skeleton& facet) { return facet.tessellation != nullptr && facet.tessellation->borders_only; }
+
+  void complete(std::uint32_t f) {
+    FacetWaves& waves = *s_.facets[f].waves;
+    s_.completed.push_back(std::make_unique<FacetTessellation>(tessellate(waves, decisions_)));
+    const FacetTessellation& whole = *s_.completed.back();
+    s_.facets[f] = whole.undecided ? Skeleton{.face = waves.face, .undecided = true} : checked_skeleton({waves.face, &waves, &whole});
   }
 
   /// The tessellated faces, and all parts of an input face of which one part is tessellated.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,6 +50,7 @@ struct Event {
 struct Piece {
   std::uint32_t site = kNone;
   LabelSetId labels = kNone;
+  std::uint32_t last_site = kNone;  ///< where it ends: another one only if no more than borders are known
 };
 
 /// What one facet shows on one of its sides, in the order of the half-edge: pieces.size() == events.size() + 1.
@@ -113,6 +115,8 @@ class EdgeJoiner {
   EdgeJoiner(const DiagramInput& in, predicates::Decisions& decisions) : in_(in), decisions_(decisions) {}
   /// h: the half-edge of the left facet; the right one has its twin.
   Joint join(HalfedgeId h, const Skeleton& left, const Skeleton& right);
+  /// Whether either facet shows the same essential events there, by identity.
+  bool are_identical(HalfedgeId h, const Skeleton& left, const Skeleton& right) const;
   /// Whether a site of one facet and a site of a neighbour facet over half-edge h of the former are one wave, by identity.
   static bool same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton& left, std::uint32_t left_site, const Skeleton& right,
                         std::uint32_t right_site);
@@ -155,6 +159,7 @@ struct Subdivision {
   std::vector<Link> links;
   std::vector<std::uint32_t> end_start;  ///< per place: range of `ends`
   std::vector<LinkEnd> ends;
+  std::vector<std::unique_ptr<FacetTessellation>> completed;  ///< of facets for which their borders alone did not do
 
   std::uint32_t to(std::uint32_t dart) const { return darts[darts[dart].next].from; }
   std::span<const LinkEnd> ends_at(std::uint32_t place) const {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "border_tracer.hpp"
 #include "contenders.hpp"
 #include "growth.hpp"
 #include "outline.hpp"
@@ -29,13 +30,8 @@ void enclose(FacetTessellation::Node& node, const FacetWaves& waves, FacetLadder
   });
 }
 
-}  // namespace
-
-FacetTessellation tessellate(FacetWaves& waves, predicates::Decisions& decisions) {
+FacetTessellation grow(FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter, FacetLadder& ladder) {
   FacetTessellation result;
-  FacetLadder ladder(waves, decisions);
-  const Contenders contenders(waves, ladder);
-  const FacetFilter filter(contenders, ladder);
   const std::vector<Occurrence> outline = OutlineWalk(waves, contenders, filter, ladder, result).walk();
   if (!ladder.failed()) Growth(waves, contenders, filter, ladder, result).run(outline);
   if (ladder.failed()) {
@@ -47,6 +43,23 @@ FacetTessellation tessellate(FacetWaves& waves, predicates::Decisions& decisions
     if (!is_finite(node)) enclose(node, waves, ladder);
   result.representative = contenders.representatives();
   return result;
+}
+
+}  // namespace
+
+FacetTessellation tessellate(FacetWaves& waves, predicates::Decisions& decisions) {
+  FacetLadder ladder(waves, decisions);
+  const Contenders contenders(waves, ladder);
+  const FacetFilter filter(contenders, ladder);
+  return grow(waves, contenders, filter, ladder);
+}
+
+FacetTessellation tessellate_borders(FacetWaves& waves, predicates::Decisions& decisions) {
+  FacetLadder ladder(waves, decisions);
+  const Contenders contenders(waves, ladder);
+  const FacetFilter filter(contenders, ladder);
+  if (auto borders = BorderTracer(waves, contenders, filter, ladder).run()) return std::move(*borders);
+  return grow(waves, contenders, filter, ladder);
 }
 
 }  // namespace gvd::kernel

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <unordered_map>
+#include <deque>
 #include <vector>
 
 #include "gvd/kernel/distance_field.hpp"
@@ -21,41 +21,47 @@ class UnfoldedWindows {
     std::array<WindowId, 2> bound{kNone, kNone};
     /// Per cone vertex: whether it bounds the last edge, too: no step since has left it.
     std::array<bool, 2> bounds_edge{true, true};
-    bool dead = false;  ///< the window, or one that it comes from, was superseded
+    WindowId first = kNone;  ///< the first window of the strip
+    bool dead = false;       ///< the window, or one that it comes from, was superseded
   };
 
-  UnfoldedWindows(const Frames& frames, const DistanceField& field) : frames_(frames), field_(field) {}
+  UnfoldedWindows(const Frames& frames, const DistanceField& field) : frames_(frames), field_(field), entry_of_(field.windows.size(), kNone) {}
 
-  void reserve(std::size_t windows) { entries_.reserve(windows); }
   /// Adds the window and all it comes from.
   const Entry& add(WindowId window) {
     path_.clear();
-    while (window != kNone && !entries_.contains(window)) {
-      path_.push_back(window);
-      window = field_.windows[window].parent;
+    for (; window != kNone && entry_of_[window] == kNone; window = field_.windows[window].parent) path_.push_back(window);
+    const Entry* entry = window == kNone ? nullptr : &entries_[entry_of_[window]];
+    for (; !path_.empty(); path_.pop_back()) {
+      entry_of_[path_.back()] = static_cast<std::uint32_t>(entries_.size());
+      entry = &entries_.emplace_back(make(frames_, field_, path_.back(), entry));
     }
-    const Entry* entry = window == kNone ? nullptr : &entries_.find(window)->second;
-    for (; !path_.empty(); path_.pop_back()) entry = &entries_.emplace(path_.back(), make(path_.back(), entry)).first->second;
-    return entry == nullptr ? entries_.find(window)->second : *entry;
+    return *entry;
+  }
+  /// A single window, of which no other one is known.
+  static Entry alone(const Frames& frames, const DistanceField& field, WindowId window) {
+    std::vector<WindowId> path;
+    for (; window != kNone; window = field.windows[window].parent) path.push_back(window);
+    Entry entry = make(frames, field, path.back(), nullptr);
+    for (path.pop_back(); !path.empty(); path.pop_back()) entry = make(frames, field, path.back(), &entry);
+    return entry;
   }
   /// Null if it was not added.
-  const Entry* find(WindowId window) const {
-    const auto at = entries_.find(window);
-    return at == entries_.end() ? nullptr : &at->second;
-  }
+  const Entry* find(WindowId window) const { return entry_of_[window] == kNone ? nullptr : &entries_[entry_of_[window]]; }
 
  private:
-  Entry make(WindowId window, const Entry* parent) const;
-  const predicates::EdgeFrame<T>& frame(HalfedgeId h) const {
+  static Entry make(const Frames& frames, const DistanceField& field, WindowId window, const Entry* parent);
+  static const predicates::EdgeFrame<T>& frame(const Frames& frames, HalfedgeId h) {
     if constexpr (std::is_same_v<T, double>)
-      return frames_(h);
+      return frames(h);
     else
-      return frames_.in_double_double(h);
+      return frames.in_double_double(h);
   }
 
   const Frames& frames_;
   const DistanceField& field_;
-  std::unordered_map<WindowId, Entry> entries_;
+  std::vector<std::uint32_t> entry_of_;  ///< per window
+  std::deque<Entry> entries_;
   std::vector<WindowId> path_;
 };
 

@@ -123,10 +123,25 @@ std::optional<VertexFilter::Guess> VertexFilter::guess(const std::array<std::uin
   return guess;
 }
 
+/// Whether one of the three is nearer than another one everywhere; or all start at one root, and the vertex has the other turn.
+bool VertexFilter::certainly_none(const std::array<std::uint32_t, 3>& waves) const {
+  bool one_root = true;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const std::uint32_t a = waves[n], b = waves[(n + 1) % 3];
+    if (contenders_[a].root == contenders_[b].root) continue;
+    one_root = false;
+    if (predicates::certainly_nearer(filter_[a].wave, filter_[b].wave) || predicates::certainly_nearer(filter_[b].wave, filter_[a].wave)) return true;
+  }
+  if (!one_root) return false;
+  const auto &wi = filter_[waves[0]].wave, &wj = filter_[waves[1]].wave, &wk = filter_[waves[2]].wave;
+  return predicates::bounded_cross(minus(wk.image, wj.image), wk.error + wj.error, minus(wi.image, wj.image), wi.error + wj.error).negative();
+}
+
 /// One step of Newton's iteration for the two differences of signed distances, with the proof that it converges and how far it may be off.
 /// A solution whose product of signs goes with the turn of the three directions is the vertex asked for; if a sign is negative, there is none.
 VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& waves) const {
   const auto start = guess(waves);
+  if (!start && certainly_none(waves)) return {Answer::no, {}};
   if (!start) return {};
   std::array<DoublePoint, 3> u;
   std::array<double, 3> value;

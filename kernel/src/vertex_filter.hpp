@@ -46,6 +46,7 @@ class VertexFilter {
     std::array<double, 3> sign{1, 1, 1};  ///< of the distances of the three, in the formula
   };
   std::optional<Guess> guess(const std::array<std::uint32_t, 3>& waves) const;
+  bool certainly_none(const std::array<std::uint32_t, 3>& waves) const;
   Found locate(const std::array<std::uint32_t, 3>& waves) const;
   Found locate_on_ray(const OnRay& ray) const;
   Answer inside_side(std::size_t k, const Location& at) const;

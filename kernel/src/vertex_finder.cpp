@@ -14,11 +14,16 @@ using robust::MaybeSign;
 using robust::Sign;
 using robust::Stage;
 
-void BisectorVertices::set_rivals(const std::vector<std::uint32_t>& rivals) {
-  rivals_ = rivals;
+void BisectorVertices::set_rivals(std::vector<std::uint32_t> rivals) {
+  rivals_ = std::move(rivals);
+  remembered_.clear();
+}
+
+void BisectorVertices::forget() {
+  const std::size_t n = rivals_.size();
+  remembered_.assign(n * n * n, 0);
   rank_.assign(contenders_.size(), 0);
-  for (std::uint32_t r = 0; r < rivals_.size(); ++r) rank_[rivals_[r]] = r;
-  remembered_.assign(rivals_.size() * rivals_.size() * rivals_.size(), 0);
+  for (std::uint32_t r = 0; r < n; ++r) rank_[rivals_[r]] = r;
 }
 
 std::int32_t& BisectorVertices::remembered(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
@@ -27,22 +32,30 @@ std::int32_t& BisectorVertices::remembered(std::uint32_t i, std::uint32_t j, std
     std::swap(j, k);
   }
   const std::size_t n = rivals_.size();
+  if (remembered_.empty()) forget();
   return remembered_[(rank_[i] * n + rank_[j]) * n + rank_[k]];
 }
 
 BisectorVertices::Found* BisectorVertices::find(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
   std::int32_t& entry = remembered(i, j, k);
   if (entry == 0) {
-    found_.emplace_back();
+    Found& found = *found_.emplace_back(std::make_unique<Found>());
     entry = static_cast<std::int32_t>(found_.size());
-    if (const auto spec = triple(i, j, k)) examine(*spec, found_.back());
-    const auto ring = found_.back().open;
+    if (const auto spec = triple(i, j, k)) examine(*spec, found);
+    const auto ring = found.open;
     for (std::size_t a = 0; ring.size() > 3 && a < ring.size(); ++a)
       for (std::size_t b = a + 1; b < ring.size(); ++b)
         for (std::size_t c = b + 1; c < ring.size(); ++c)
           remembered(ring[a], ring[b], ring[c]) = static_cast<std::int32_t>(found_.size());
   }
-  return ladder_.failed() ? nullptr : &found_[static_cast<std::size_t>(entry - 1)];
+  return ladder_.failed() ? nullptr : found_[static_cast<std::size_t>(entry - 1)].get();
+}
+
+std::optional<BisectorVertices::Found> BisectorVertices::find_in_doubles(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+  Found found;
+  const auto spec = triple(i, j, k);
+  if (spec && !examine_in_doubles(*spec, found)) return std::nullopt;
+  return found;
 }
 
 /// Empty if identity excludes a vertex. The boundary ray of a parent through its cone vertex 0 has the relay on its left, through 1
@@ -189,7 +202,7 @@ bool BisectorVertices::examine_in_doubles(const Triple& t, Found& found) {
   found.exists = true;
   found.node = node_of(t);
   found.open = {t.waves[0], t.waves[1], t.waves[2]};
-  for (const std::uint32_t wave : found.open) found.node.sites.push_back(contenders_[wave].site);
+  found.node.sites = {contenders_[t.waves[0]].site, contenders_[t.waves[1]].site, contenders_[t.waves[2]].site};
   found.node.x = FacetWaves::F(judged.at.p.x, judged.at.radius);
   found.node.y = FacetWaves::F(judged.at.p.y, judged.at.radius);
   return true;

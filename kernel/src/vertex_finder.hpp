@@ -1,7 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,11 +33,13 @@ class BisectorVertices {
       : waves_(waves), contenders_(contenders), filter_(filter, contenders), ladder_(ladder) {}
 
   /// Only these contenders can conflict: the others own no area of the facet. To be called first.
-  void set_rivals(const std::vector<std::uint32_t>& rivals);
+  void set_rivals(std::vector<std::uint32_t> rivals);
 
   /// The vertex with the regions of i, j, k counter-clockwise round it, perhaps with others in between. Remembered, and one for all triples that
   /// meet in one point. Null on failure. Pre: i, j, k are different rivals.
   Found* find(std::uint32_t i, std::uint32_t j, std::uint32_t k);
+  /// The same without memory, by doubles alone; empty if they cannot tell.
+  std::optional<Found> find_in_doubles(std::uint32_t i, std::uint32_t j, std::uint32_t k);
 
  private:
   /// How to construct the vertex: the three waves in counter-clockwise order, the pivot in the middle; or, if two of them are tangent,
@@ -67,6 +69,7 @@ class BisectorVertices {
                    const predicates::PlanePoint<NT>& p, std::uint32_t rival) const;
   bool add_eclipsed_ties(const Triple& triple, const FacetTessellation::Node& node);
   FacetTessellation::Node node_of(const Triple& triple) const;
+  void forget();
   std::int32_t& remembered(std::uint32_t i, std::uint32_t j, std::uint32_t k);
   static predicates::Predicate predicate_of(std::uint32_t what);
   std::string describe(const Triple& triple, std::uint32_t what) const;
@@ -78,7 +81,7 @@ class BisectorVertices {
   std::vector<std::uint32_t> rivals_;
   std::vector<std::uint32_t> rank_;       ///< of a contender among the rivals
   std::vector<std::int32_t> remembered_;  ///< per ordered triple of rivals: 0 unknown, else 1 + index in found_
-  std::deque<Found> found_;              ///< pointers to them are handed out
+  std::vector<std::unique_ptr<Found>> found_;  ///< pointers to them are handed out
   std::vector<std::uint32_t> pending_, ties_;
   bool on_boundary_ray_ = false;  ///< the vertex being examined lies on one of the three's, other than by construction
 };

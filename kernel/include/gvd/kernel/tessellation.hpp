@@ -50,11 +50,17 @@ struct FacetTessellation {
   std::vector<Node> nodes;
   std::vector<Arc> arcs;
   std::vector<Piece> outline;
+  /// Only the borders of label sets: arcs between different ones, and nodes on them. The outline has one piece where the label set stays the same,
+  /// with the site where it begins; `representative` is complete.
+  bool borders_only = false;
   bool undecided = false;  ///< some decision failed at every stage; it is listed in the decisions, and the tessellation is empty
 };
 
 /// Tessellates by direct window growth. Every combinatorial statement of the result is proved, or `undecided` is set.
 /// Cost: O(n^3) predicates in the worst case for n sites, O(n^2) usually; n is 2 to 10 on terrains.
 FacetTessellation tessellate(FacetWaves& waves, predicates::Decisions& decisions);
+
+/// What the diagram needs of it: the borders alone where plain doubles can follow them from side to side (`borders_only`), else all of it.
+FacetTessellation tessellate_borders(FacetWaves& waves, predicates::Decisions& decisions);
 
 }  // namespace gvd::kernel

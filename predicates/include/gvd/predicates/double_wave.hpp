@@ -46,12 +46,20 @@ inline Bounded difference(const DoubleWave& a, double at_a, const DoubleWave& b,
   return {at_b - at_a, (a.error + b.error + kDoubleWaveError * (at_a + at_b)) * (1 + 0x1p-48) + 0x1p-499};
 }
 
+/// By how much wave a comes after b to the image of b, where b has just its weight.
+inline Bounded lag_at_image(const DoubleWave& a, const DoubleWave& b) noexcept {
+  const double at_b = distance(a, b.image);
+  return {at_b - b.weight, (a.error + b.error + kDoubleWaveError * (at_b + std::fabs(b.weight))) * (1 + 0x1p-48) + 0x1p-499};
+}
+
 /// Whether the image of b is certainly not where wave a has just the weight of b.
 inline bool certainly_apart(const DoubleWave& a, const DoubleWave& b) noexcept {
-  const double at_b = distance(a, b.image);
-  const Bounded gap{at_b - b.weight, (a.error + b.error + kDoubleWaveError * (at_b + std::fabs(b.weight))) * (1 + 0x1p-48) + 0x1p-499};
-  return gap.positive() || gap.negative();
+  const Bounded lag = lag_at_image(a, b);
+  return lag.positive() || lag.negative();
 }
+
+/// Whether a is nearer than b everywhere, by the triangle inequality: it is at the image of b.
+inline bool certainly_nearer(const DoubleWave& a, const DoubleWave& b) noexcept { return lag_at_image(a, b).negative(); }
 
 /// The cross product of two differences of points that are known up to `error_a` and `error_b`.
 inline Bounded bounded_cross(const DoublePoint& a, double error_a, const DoublePoint& b, double error_b) noexcept {
