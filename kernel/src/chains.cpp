@@ -1,12 +1,14 @@
 #include "chains.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
 #include "fan_image.hpp"
 #include "gvd/kernel/error.hpp"
 #include "gvd/predicates/plane.hpp"
+#include "wave_numbers.hpp"
 
 namespace gvd::kernel::subdivision {
 namespace {
@@ -119,17 +121,22 @@ class Tracer {
     FacetWaves &wa = *s_.facets[a.facet].waves, &wb = *s_.facets[b.facet].waves;
     if (wa.sites[a.site].root != wb.sites[b.site].root) return true;
     if (place.kind == Place::Kind::vertex) return !is_flat(s_.facets[a.facet], place.vertex);
-    return other_distances<FacetWaves::F>(wa, a.site, wb, b.site) || other_distances<FacetWaves::DD>(wa, a.site, wb, b.site);
+    return other_distances<FacetWaves::F>(wa, a.site, wb, b.site, 0) || other_distances<FacetWaves::DD>(wa, a.site, wb, b.site, 0) ||
+           (!(wa.exact_is_cheap() && wb.exact_is_cheap()) && other_distances_in_mpfr(wa, a.site, wb, b.site, {128, 256}));
+  }
+
+  static bool other_distances_in_mpfr(FacetWaves& wa, std::uint32_t a, FacetWaves& wb, std::uint32_t b, std::initializer_list<int> precisions) {
+    return std::any_of(precisions.begin(), precisions.end(), [&](int bits) { return other_distances<FacetWaves::M>(wa, a, wb, b, bits); });
   }
 
   /// Whether two images of one root are certainly at different distances from an end of the edge that the facets share.
   template <class NT>
-  static bool other_distances(FacetWaves& wa, std::uint32_t a, FacetWaves& wb, std::uint32_t b) {
+  static bool other_distances(FacetWaves& wa, std::uint32_t a, FacetWaves& wb, std::uint32_t b, int bits) {
     using predicates::operator-;
-    const auto square_from = [](FacetWaves& waves, std::uint32_t site, VertexId v) {
+    const auto square_from = [bits](FacetWaves& waves, std::uint32_t site, VertexId v) {
       const auto k = static_cast<std::size_t>(std::find(waves.corner.begin(), waves.corner.end(), v) - waves.corner.begin());
-      const auto& frame = waves.frame(NT());
-      return squared_norm(waves.site(site, NT()).image - predicates::corner_point(frame, k)) * square(frame.length);
+      const auto& frame = frame_in<NT>(waves, bits);
+      return squared_norm(site_in<NT>(waves, site, bits).image - predicates::corner_point(frame, k)) * square(frame.length);
     };
     for (const VertexId v : wa.corner) {
       if (std::find(wb.corner.begin(), wb.corner.end(), v) == wb.corner.end()) continue;
@@ -164,7 +171,9 @@ class Tracer {
     };
     for (std::size_t i = 0; i < 2; ++i) {
       const auto difference = maybe_sign(square_from(wa, a.site, shared[i]) - square_from(wb, b.site, shared[i]));
-      if (difference != robust::Sign::zero) return difference ? std::optional(false) : std::nullopt;
+      if (difference == robust::Sign::zero) continue;
+      const bool other = difference || other_distances_in_mpfr(wa, a.site, wb, b.site, {512, 1024});
+      return other ? std::optional(false) : std::nullopt;
     }
     const auto of_a = beside(wa, a.site), of_b = beside(wb, b.site);
     if (!of_a || !of_b) return std::nullopt;
