@@ -464,13 +464,17 @@ void FieldWaves::make_exact() {
 }
 
 /// Numbers that are not to be had are undefined: their signs are empty.
+Exact FieldWaves::exact_weight(VertexId root, const Exact& unit) const {
+  const auto weight = resolution_.exact_distance(root);
+  return weight ? *weight / unit : Exact(std::numeric_limits<double>::quiet_NaN());
+}
+
 predicates::Site<Exact> FieldWaves::exact_site(const FacetSite& site, const Exact& length) const {
   const auto point = [](const predicates::RootPoint& z) { return PlanePoint<Exact>{Exact(z.x), Exact(z.y)}; };
   const Exact undefined(std::numeric_limits<double>::quiet_NaN());
   const PlanePoint<Exact> nowhere{undefined, undefined}, &apex = precise_->exact_frame->apex;
   predicates::Site<Exact> result;
-  const auto weight = resolution_.exact_distance(site.root);
-  result.weight = weight ? *weight / length : undefined;
+  result.weight = exact_weight(site.root, length);
   result.has_cone = site.window != kNone;
   if (!result.has_cone) {
     result.image = site.corner == 0   ? PlanePoint<Exact>{Exact(0.0), Exact(0.0)}
@@ -482,6 +486,55 @@ predicates::Site<Exact> FieldWaves::exact_site(const FacetSite& site, const Exac
   result.image = at ? to_first_side(point(at->image), site.side, apex) : nowhere;
   result.cone = {at ? to_first_side(point(at->cone0), site.side, apex) : nowhere,
                  at ? to_first_side(point(at->cone1), site.side, apex) : nowhere};
+  return result;
+}
+
+/// The half-edge that all windows are on, if the corners among the waves are ends of it; else kNone.
+HalfedgeId FieldWaves::common_side(std::span<const std::uint32_t> which, std::span<const WindowId> windows) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  HalfedgeId common = kNone;
+  for (const WindowId w : windows) {
+    if (w == kNone) continue;
+    const HalfedgeId h = field_.windows[w].halfedge();
+    if (common != kNone && h != common) return kNone;
+    common = h;
+  }
+  for (std::size_t n = 0; common != kNone && n < which.size(); ++n) {
+    const VertexId v = sites[which[n]].root;
+    if (windows[n] == kNone && v != mesh.origin(common) && v != mesh.target(common)) return kNone;
+  }
+  return common;
+}
+
+/// Goes to the parents; false if a strip begins here.
+bool FieldWaves::step_back(std::vector<WindowId>& windows) const {
+  for (WindowId& w : windows)
+    if (w != kNone && (w = field_.windows[w].parent) == kNone) return false;
+  return true;
+}
+
+std::vector<predicates::Site<Exact>> FieldWaves::where_they_part(std::span<const std::uint32_t> which) {
+  std::vector<WindowId> at, back;  // kNone: a corner
+  for (const std::uint32_t i : which) back.push_back(sites[i].window);
+  HalfedgeId base = kNone;
+  for (HalfedgeId h = common_side(which, back); h != kNone; h = step_back(back) ? common_side(which, back) : kNone) {
+    base = h;
+    at = back;
+  }
+  if (base == kNone || Mesh::face(base) == face) return {};
+  const Frames& frames = resolution_.frames();
+  const Exact length = sqrt(Exact(frames.exact(Mesh::face(base)).squared[base % 3]));
+  std::vector<predicates::Site<Exact>> result;
+  for (std::size_t n = 0; n < which.size(); ++n) {
+    predicates::Site<Exact>& site = result.emplace_back();
+    const VertexId root = sites[which[n]].root;
+    site.weight = exact_weight(root, length);
+    site.image = {Exact(root == frames.mesh().target(base) ? 1.0 : 0.0), Exact(0.0)};
+    if (at[n] == kNone) continue;
+    const auto unfolding = resolution_.exact_unfolding(at[n]);
+    if (!unfolding) return {};
+    site.image = {Exact(unfolding->image.x), Exact(unfolding->image.y)};
+  }
   return result;
 }
 

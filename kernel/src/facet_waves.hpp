@@ -31,6 +31,7 @@ class FieldWaves final : public FacetWaves {
   const predicates::Site<robust::Exact>* exact_site(std::size_t i) override;
 
   bool exact_is_cheap() override;
+  std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> which) override;
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
   bool have_one_image(std::size_t left, std::size_t right) override;
   bool are_mirror_images(std::size_t entering, std::size_t other) override;
@@ -72,6 +73,9 @@ class FieldWaves final : public FacetWaves {
   template <class T>
   predicates::FacetFrame<robust::Ball<T>> make_frame(const predicates::EdgeFrame<T>& first, double unit) const;
   void make_exact();
+  HalfedgeId common_side(std::span<const std::uint32_t> which, std::span<const WindowId> windows) const;
+  bool step_back(std::vector<WindowId>& windows) const;
+  robust::Exact exact_weight(VertexId root, const robust::Exact& unit) const;
   predicates::Site<robust::Exact> exact_site(const FacetSite& site, const robust::Exact& length) const;
 
   const Resolution& resolution_;

@@ -1,6 +1,7 @@
 #include "vertex_finder.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace gvd::kernel {
 
@@ -120,8 +121,10 @@ BisectorVertices::Verdict BisectorVertices::conflict(const FacetNumbers<NT>& num
     return end == Contenders::kNotTangent || inside[static_cast<std::size_t>(end)] == Sign::positive ? Verdict::reject
                                                                                                      : Verdict::tie;
   }
-  const auto relative = relative_wave(waves_, numbers, contenders_[t.pivot].site, wave.site);
-  const MaybeSign nearer = predicates::conflict(relative, vertex);
+  const auto known = std::find_if(settled_.begin(), settled_.end(), [&](const auto& s) { return s.first == rival; });
+  const MaybeSign nearer = known != settled_.end()
+                               ? known->second
+                               : predicates::conflict(relative_wave(waves_, numbers, contenders_[t.pivot].site, wave.site), vertex);
   if (nearer == Sign::negative || !look()) return Verdict::pass;
   if (!nearer || !inside[0] || !inside[1]) return Verdict::open;
   return nearer == Sign::positive ? Verdict::reject : Verdict::tie;
@@ -188,6 +191,32 @@ bool BisectorVertices::run_tests(const FacetNumbers<NT>& numbers, Stage stage, c
   return true;
 }
 
+/// What the images alone decide, in the frame where their strips part: whether there is a vertex (if not, the result is false), and which
+/// rivals conflict.
+bool BisectorVertices::settle_where_they_part(const Triple& t) {
+  if (t.on_ray) return true;
+  for (const std::uint32_t what : pending_) {
+    if (what != kExistence && what < kRivals) continue;
+    std::vector<std::uint32_t> which(t.waves.begin(), t.waves.end());
+    if (what != kExistence) which.push_back(what - kRivals);
+    for (std::uint32_t& wave : which) wave = contenders_[wave].site;
+    const auto sites = waves_.where_they_part(which);
+    if (sites.empty()) continue;
+    FacetNumbers<robust::Exact> numbers;
+    numbers.sites.assign(waves_.sites.size(), nullptr);
+    for (std::size_t n = 0; n < which.size(); ++n) numbers.sites[which[n]] = &sites[n];
+    const auto vertex = construct(numbers, t);
+    if (vertex.existence == Existence::impossible) {
+      ladder_.count(predicate_of(what), Stage::algebra);
+      return false;
+    }
+    if (what == kExistence || vertex.existence != Existence::proved) continue;
+    const auto relative = relative_wave(waves_, numbers, contenders_[t.pivot].site, contenders_[what - kRivals].site);
+    if (const MaybeSign nearer = predicates::conflict(relative, vertex)) settled_.emplace_back(what - kRivals, *nearer);
+  }
+  return true;
+}
+
 /// False if doubles cannot tell.
 bool BisectorVertices::examine_in_doubles(const Triple& t, Found& found) {
   std::optional<VertexFilter::OnRay> on_ray;
@@ -222,8 +251,12 @@ void BisectorVertices::examine(const Triple& t, Found& found) {
 
   const auto& numbers = ladder_.filter();
   bool holds = run_tests(numbers, Stage::filter, t);
+  settled_.clear();
+  bool may_part = true;
   if (holds && !pending_.empty()) {
     const auto finished = ladder_.for_each_stage([&](const auto& finer, Stage stage) -> std::optional<bool> {
+      const bool parted = stage != Stage::double_double && std::exchange(may_part, false);
+      if (parted && !settle_where_they_part(t)) return false;
       if (!run_tests(finer, stage, t)) return false;
       return pending_.empty() ? std::optional(true) : std::nullopt;
     });

@@ -67,6 +67,7 @@ class BisectorVertices {
   template <class NT>
   Verdict conflict(const FacetNumbers<NT>& numbers, const Triple& triple, const predicates::BisectorVertex<NT>& vertex,
                    const predicates::PlanePoint<NT>& p, std::uint32_t rival) const;
+  bool settle_where_they_part(const Triple& triple);
   bool add_eclipsed_ties(const Triple& triple, const FacetTessellation::Node& node);
   FacetTessellation::Node node_of(const Triple& triple) const;
   void forget();
@@ -83,6 +84,7 @@ class BisectorVertices {
   std::vector<std::int32_t> remembered_;  ///< per ordered triple of rivals: 0 unknown, else 1 + index in found_
   std::vector<std::unique_ptr<Found>> found_;  ///< pointers to them are handed out
   std::vector<std::uint32_t> pending_, ties_;
+  std::vector<std::pair<std::uint32_t, robust::Sign>> settled_;  ///< conflicts of rivals that are known already
   bool on_boundary_ray_ = false;  ///< the vertex being examined lies on one of the three's, other than by construction
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "gvd/kernel/ids.hpp"
@@ -80,6 +81,14 @@ class FacetWaves {
     static_cast<void>(entering);
     static_cast<void>(other);
     return false;
+  }
+
+  /// The waves `which`, in their order, in the frame of the last side that the strips of all of them cross together, counting back from the facet:
+  /// from there on they are unfolded alike, so whatever holds between them alone is told by fewer and simpler numbers. Empty if they have no side
+  /// in common but the facet's own, or no exact numbers.
+  virtual std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> which) {
+    static_cast<void>(which);
+    return {};
   }
 
   /// Whether the path to the root of `relay` goes through the strip of window `parent`, which turns about that root and then crosses the same
