@@ -65,6 +65,10 @@ bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Co
     ladder.count(Predicate::edge_tie, robust::Stage::identity);
     return true;
   }
+  if (waves_.are_proved_one_image(left.site, right.site)) {
+    ladder.count(Predicate::edge_tie, robust::Stage::algebra);
+    return true;
+  }
   const auto same = ladder.for_each_stage([&](const auto& numbers, robust::Stage) -> std::optional<bool> {
     const auto &a = numbers.sites[left.site]->image, &b = numbers.sites[right.site]->image;
     const robust::MaybeSign x = maybe_sign(a.x - b.x), y = maybe_sign(a.y - b.y);
@@ -137,6 +141,24 @@ void Contenders::find_tangencies(FacetLadder& ladder) {
       eclipsed_[p * n + r] = 1;
       if (tangent_[p * n + r] == kNotTangent)
         tangent_[p * n + r] = static_cast<signed char>(ray_through(ladder, list_[p], list_[r]));
+    }
+  }
+  share_eclipses(ladder);
+}
+
+/// Windows of one root with one image, whose cones do not touch, have one distance everywhere: neither is nearer than the other, and each eclipses,
+/// or is eclipsed by, what the other does.
+void Contenders::share_eclipses(FacetLadder& ladder) {
+  const std::size_t n = list_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const Contender &a = list_[i], &b = list_[j];
+      if (i == j || a.root != b.root || !a.has_cone || !b.has_cone || !same_image(ladder, a, b)) continue;
+      eclipsed_[i * n + j] = 1;
+      for (std::size_t k = 0; k < n; ++k) {
+        if (k != i && eclipsed_[j * n + k] != 0) eclipsed_[i * n + k] = 1;
+        if (k != i && eclipsed_[k * n + j] != 0) eclipsed_[k * n + i] = 1;
+      }
     }
   }
 }

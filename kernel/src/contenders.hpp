@@ -77,6 +77,7 @@ class Contenders {
   bool may_touch(const FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   void find_tangencies(FacetLadder& ladder);
+  void share_eclipses(FacetLadder& ladder);
   bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   bool may_enter_beyond(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   int ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;

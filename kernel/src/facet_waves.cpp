@@ -208,19 +208,38 @@ bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   return enclose_only_flat(sides_of(strip(left)), sides_of(strip(right)));
 }
 
-/// Both images in the frame of the side seen from behind, in which the window's is 1 - z.
+bool FieldWaves::are_proved_one_image(std::size_t a, std::size_t b) {
+  if (sites[a].root != sites[b].root || sites[a].window == kNone || sites[b].window == kNone) return false;
+  const predicates::StripProgram of_a = strip_program(resolution_.frames(), strip(a));
+  if (sites[a].side == sites[b].side) {
+    const predicates::StripProgram of_b = strip_program(resolution_.frames(), strip(b));
+    return are_proved_equal(of_a.value({0, 1, 0, 0}), of_b.value({0, 1, 0, 0})) &&
+           are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
+  }
+  const predicates::StripProgram of_b = program_beyond(sites[a].side, b);
+  return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
+         are_proved_equal(of_a.value({0, 0, -1, 0}), of_b.value({0, 0, 1, 0}));
+}
+
 bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
   const FacetSite &a = sites[entering], &b = sites[other];
   const std::uint8_t side = a.side;
   if (a.window == kNone || (b.window == kNone ? b.corner != (side + 2) % 3 : b.side == side)) return false;
   if (!resolution_.have_equal_distances(a.root, b.root)) return false;
-  const Frames& frames = resolution_.frames();
-  const predicates::ProgramFace here = program_face(frames, face);
-  const predicates::StripProgram of_a = strip_program(frames, strip(entering));
-  predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(here, side) : strip_program(frames, strip(other));
-  if (b.window != kNone) of_b.cross(here, side, side == (b.side + 2) % 3);
+  const predicates::StripProgram of_a = strip_program(resolution_.frames(), strip(entering)), of_b = program_beyond(side, other);
   return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
          are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
+}
+
+/// The image of a wave that comes over another side, or from the corner opposite, in the frame of `side` as the neighbour there sees it: in which an
+/// image z in the facet's own frame of that side is 1 - z.
+predicates::StripProgram FieldWaves::program_beyond(std::uint8_t side, std::size_t i) const {
+  const Frames& frames = resolution_.frames();
+  const predicates::ProgramFace here = program_face(frames, face);
+  if (sites[i].window == kNone) return {here, side};
+  predicates::StripProgram program = strip_program(frames, strip(i));
+  program.cross(here, side, side == (sites[i].side + 2) % 3);
+  return program;
 }
 
 /// The nearest way to the root of `relay` must be the parent's own, as far as that goes, and then turn about it into the strip of

@@ -34,6 +34,7 @@ class FieldWaves final : public FacetWaves {
   std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> which) override;
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
   bool have_one_image(std::size_t left, std::size_t right) override;
+  bool are_proved_one_image(std::size_t a, std::size_t b) override;
   bool are_mirror_images(std::size_t entering, std::size_t other) override;
   /// Windows in double-double that are known already; it may lack any. Null: none.
   void use(const UnfoldedWindows<robust::DoubleDouble>* unfolded) { double_double_ = unfolded; }
@@ -61,6 +62,7 @@ class FieldWaves final : public FacetWaves {
   using Sides = std::vector<HalfedgeId>;
   static Sides sides_of(const predicates::Strip& strip);
   bool enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
+  predicates::StripProgram program_beyond(std::uint8_t side, std::size_t i) const;
   bool has_relay_on_strip(std::size_t parent, std::size_t relay) const;
   bool has_relay_beyond_flat(std::size_t parent, std::size_t relay) const;
   std::optional<Sides> turn_about(HalfedgeId first, bool left, FaceId end) const;

@@ -75,6 +75,13 @@ class FacetWaves {
     return false;
   }
 
+  /// The same, by algebra of the two strips.
+  virtual bool are_proved_one_image(std::size_t a, std::size_t b) {
+    static_cast<void>(a);
+    static_cast<void>(b);
+    return false;
+  }
+
   /// Whether a window and another wave, of equal weight, have images that are mirror images in the side over which the window enters: then they tie
   /// along that side. True is a proof, false says nothing.
   virtual bool are_mirror_images(std::size_t entering, std::size_t other) {
