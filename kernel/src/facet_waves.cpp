@@ -261,7 +261,7 @@ bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const
     if (w == kNone || crossed(w) != crossed(own)) return false;
   for (; w != kNone; w = before(w)) {
     const HalfedgeId h = crossed(w);
-    if (mesh.apex(h) == v) return resolution_.attains(w, v);
+    if (mesh.apex(h) == v) return resolution_.attains(w, v) || resolution_.is_as_far(w, v);
     if (mesh.origin(h) != v && mesh.target(h) != v) return false;
     if (before(w) == kNone) return resolution_.attains_along_edge(sites[parent].root, v);
   }

@@ -333,6 +333,16 @@ bool Resolution::attains_along_edge(VertexId via, VertexId v) const noexcept {
   return false;
 }
 
+bool Resolution::is_as_far(WindowId window, VertexId v) const {
+  const auto leg_of = [&](const Candidate& c) { return Leg{c.window, c.via, v, squared_leg(c, v)}; };
+  Candidate through{};
+  through.window = window;
+  through.via = field_.windows[window].root;
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next)
+    if (field_.candidates[c].via == through.via && are_equal(leg_of(through), leg_of(field_.candidates[c]))) return true;
+  return false;
+}
+
 double rounded_distance(const Resolution& resolution, VertexId v, predicates::Decisions& decisions) {
   const int scale = resolution.frames().scale();
   const Ball<DoubleDouble>& d = resolution.distance(v);

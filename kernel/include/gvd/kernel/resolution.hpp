@@ -60,6 +60,9 @@ class Resolution {
   bool attains(WindowId window, VertexId v) const noexcept;
   /// Whether the straight edge from `via` brings v its distance.
   bool attains_along_edge(VertexId via, VertexId v) const noexcept;
+  /// Whether the image in a window's strip is, by algebra, as far from the apex as v is from its root, whether the window sees it or not.
+  /// Pre: v is the apex of the window's face.
+  bool is_as_far(WindowId window, VertexId v) const;
   bool is_source(VertexId v) const noexcept { return source_of_vertex_[v] != kNone; }
   /// Whether a wave of its own sources starts at v and nothing reaches v sooner.
   bool is_live_source(VertexId v) const noexcept { return attains_along_edge(v, v); }
