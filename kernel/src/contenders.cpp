@@ -135,14 +135,13 @@ void Contenders::find_tangencies(FacetLadder& ladder) {
     }
   }
   eclipsed_.assign(n * n, 0);
-  for (std::size_t p = 0; p < n; ++p) {
-    for (std::size_t r = 0; r < n; ++r) {
-      if (p == r || (tangent_[p * n + r] == kNotTangent && !finds_eclipse(ladder, list_[p], list_[r]))) continue;
-      eclipsed_[p * n + r] = 1;
-      if (tangent_[p * n + r] == kNotTangent)
-        tangent_[p * n + r] = static_cast<signed char>(ray_through(ladder, list_[p], list_[r]));
-    }
-  }
+  for (std::size_t p = 0; p < n; ++p)
+    for (std::size_t r = 0; r < n; ++r)
+      eclipsed_[p * n + r] = p != r && (tangent_[p * n + r] != kNotTangent || finds_eclipse(ladder, list_[p], list_[r])) ? 1 : 0;
+  for (std::size_t p = 0; p < n; ++p)
+    for (std::size_t r = 0; r < n; ++r)
+      if (eclipsed_[p * n + r] != 0 && tangent_[p * n + r] == kNotTangent)
+        tangent_[p * n + r] = static_cast<signed char>(ray_through(ladder, p, r));
   share_eclipses(ladder);
 }
 
@@ -196,10 +195,13 @@ bool Contenders::may_enter_beyond(FacetLadder& ladder, const Contender& wave, co
   return (known ? known : ladder.for_each_stage(inwards)).value_or(Sign::positive) == Sign::positive;
 }
 
-/// The boundary ray of the wave on which a relay that it eclipses lies and goes on into the facet, if any: several vertices may follow one
-/// another on a ray.
-int Contenders::ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const {
+/// The boundary ray of a wave on which a relay that it eclipses lies and goes on into the facet, if any: several vertices may follow one
+/// another on a ray. By identity if another one is known to lie on it and one of the two eclipses the other.
+int Contenders::ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) const {
+  const Contender &wave = list_[p], &relay = list_[r];
   if (!wave.has_cone || !may_enter_beyond(ladder, wave, relay)) return kNotTangent;
+  for (std::size_t other = 0; other < list_.size(); ++other)
+    if (tangent_end(p, other) != kNotTangent && (eclipses(r, other) || eclipses(other, r))) return tangent_end(p, other);
   for (std::size_t end = 0; end < 2; ++end) {
     const auto side = [&](const auto& numbers) {
       return maybe_sign(cone_side(numbers, wave, end, numbers.sites[relay.site]->image));
@@ -209,6 +211,16 @@ int Contenders::ray_through(FacetLadder& ladder, const Contender& wave, const Co
       return static_cast<int>(end);
   }
   return kNotTangent;
+}
+
+bool Contenders::are_one_ray(std::size_t i, std::size_t end, std::uint32_t site, std::size_t site_end) const {
+  if (list_[i].cone_site[end] == site && end == site_end) return true;
+  for (std::size_t p = 0; p < list_.size(); ++p) {
+    if (!list_[p].has_cone || list_[p].cone_site[site_end] != site || (!eclipses(p, i) && !eclipses(i, p))) continue;
+    for (std::size_t q = 0; q < list_.size(); ++q)
+      if (tangent_end(p, q) == static_cast<int>(site_end) && tangent_end(i, q) == static_cast<int>(end)) return true;
+  }
+  return false;
 }
 
 bool Contenders::runs_along(FacetLadder& ladder, std::size_t i, std::size_t end, std::size_t side) const {

@@ -64,6 +64,9 @@ class Contenders {
   /// Whether the two tie along a side because their images are mirror images in it: positive if i comes in over that side, negative if j does, zero
   /// if nothing of the kind is proved.
   robust::Sign mirrored(std::size_t i, std::size_t j, std::size_t side) const;
+  /// Whether boundary ray `end` of i is, by identity, on one line with ray `site_end` of a site: it is that ray, or both go through one relay and one
+  /// of the two waves eclipses the other.
+  bool are_one_ray(std::size_t i, std::size_t end, std::uint32_t site, std::size_t site_end) const;
   /// Whether boundary ray `end` of i runs along a side of the facet: then every point of the side is on it. Proved from the images alone, since the
   /// numbers of such a point may be beyond all proof.
   bool runs_along(FacetLadder& ladder, std::size_t i, std::size_t end, std::size_t side) const;
@@ -80,7 +83,7 @@ class Contenders {
   void share_eclipses(FacetLadder& ladder);
   bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   bool may_enter_beyond(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
-  int ray_through(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
+  int ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) const;
 
   bool may_be_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const;
   bool are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const;

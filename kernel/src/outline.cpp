@@ -146,7 +146,7 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
   if (events.empty() && from == last) return true;
   for (std::size_t end = 0; contenders_[from].has_cone && end < 2; ++end) {
     const std::uint32_t ray = contenders_[from].cone_site[end];
-    if (!events.empty() && events[0].ray == ray && events[0].ray_end == end) continue;
+    if (!events.empty() && events[0].ray != FacetTessellation::kNoSite && contenders_.are_one_ray(from, end, events[0].ray, events[0].ray_end)) continue;
     if (!events.empty() && events[0].filtered && events[0].filtered->existence == Existence::proved) {
       const auto& t = events[0].filtered->t;  // between its bounds the ray's side is linear
       if (filter_.cone_side(side, from, end, t.lower()).positive() && filter_.cone_side(side, from, end, t.upper()).positive()) {
@@ -288,7 +288,7 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
   if (to.has_cone) {
     const auto p = predicates::point_at(numbers.side[side], tie.t);
     for (std::size_t end = 0; end < 2; ++end) {
-      if (event.ray == to.cone_site[end] && event.ray_end == end) continue;  // on that ray by identity
+      if (event.ray != FacetTessellation::kNoSite && contenders_.are_one_ray(event.to, end, event.ray, event.ray_end)) continue;
       const MaybeSign inside = along[end] ? Sign::zero : maybe_sign(cone_side(numbers, to, end, p));
       if (inside == Sign::negative) return Answer::no;
       if (inside == Sign::zero) on_ray = true;

@@ -181,7 +181,7 @@ std::optional<bool> Ring::comes_before(const Direction& from, const Direction& a
 }
 
 bool Ring::is_on_node_ray(const Node& node, std::uint32_t wave, std::size_t end) const {
-  return node.ray == contenders_[wave].cone_site[end] && node.ray_end == end;
+  return node.ray != FacetTessellation::kNoSite && contenders_[wave].has_cone && contenders_.are_one_ray(wave, end, node.ray, node.ray_end);
 }
 
 /// A wave ties with a relay of its own on their common ray and nowhere else: whether one that starts on this ray is known to tie too.
