@@ -213,13 +213,19 @@ int Contenders::ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) c
   return kNotTangent;
 }
 
-bool Contenders::are_one_ray(std::size_t i, std::size_t end, std::uint32_t site, std::size_t site_end) const {
+bool Contenders::is_on_ray(std::size_t i, std::size_t end, std::uint32_t site, std::size_t site_end) const {
   if (list_[i].cone_site[end] == site && end == site_end) return true;
   for (std::size_t p = 0; p < list_.size(); ++p) {
     if (!list_[p].has_cone || list_[p].cone_site[site_end] != site || (!eclipses(p, i) && !eclipses(i, p))) continue;
     for (std::size_t q = 0; q < list_.size(); ++q)
       if (tangent_end(p, q) == static_cast<int>(site_end) && tangent_end(i, q) == static_cast<int>(end)) return true;
   }
+  return false;
+}
+
+bool Contenders::are_one_ray(std::uint32_t site, std::size_t end, std::uint32_t other, std::size_t other_end) const {
+  for (std::size_t i = 0; i < list_.size(); ++i)
+    if (list_[i].has_cone && list_[i].cone_site[end] == site && is_on_ray(i, end, other, other_end)) return true;
   return false;
 }
 

@@ -66,7 +66,9 @@ class Contenders {
   robust::Sign mirrored(std::size_t i, std::size_t j, std::size_t side) const;
   /// Whether boundary ray `end` of i is, by identity, on one line with ray `site_end` of a site: it is that ray, or both go through one relay and one
   /// of the two waves eclipses the other.
-  bool are_one_ray(std::size_t i, std::size_t end, std::uint32_t site, std::size_t site_end) const;
+  bool is_on_ray(std::size_t i, std::size_t end, std::uint32_t site, std::size_t site_end) const;
+  /// The same for the rays of two sites.
+  bool are_one_ray(std::uint32_t site, std::size_t end, std::uint32_t other, std::size_t other_end) const;
   /// Whether boundary ray `end` of i runs along a side of the facet: then every point of the side is on it. Proved from the images alone, since the
   /// numbers of such a point may be beyond all proof.
   bool runs_along(FacetLadder& ladder, std::size_t i, std::size_t end, std::size_t side) const;

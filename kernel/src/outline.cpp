@@ -146,7 +146,7 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
   if (events.empty() && from == last) return true;
   for (std::size_t end = 0; contenders_[from].has_cone && end < 2; ++end) {
     const std::uint32_t ray = contenders_[from].cone_site[end];
-    if (!events.empty() && events[0].ray != FacetTessellation::kNoSite && contenders_.are_one_ray(from, end, events[0].ray, events[0].ray_end)) continue;
+    if (!events.empty() && events[0].ray != FacetTessellation::kNoSite && contenders_.is_on_ray(from, end, events[0].ray, events[0].ray_end)) continue;
     if (!events.empty() && events[0].filtered && events[0].filtered->existence == Existence::proved) {
       const auto& t = events[0].filtered->t;  // between its bounds the ray's side is linear
       if (filter_.cone_side(side, from, end, t.lower()).positive() && filter_.cone_side(side, from, end, t.upper()).positive()) {
@@ -288,7 +288,7 @@ std::optional<OutlineWalk::Answer> OutlineWalk::happens_in(const FacetNumbers<NT
   if (to.has_cone) {
     const auto p = predicates::point_at(numbers.side[side], tie.t);
     for (std::size_t end = 0; end < 2; ++end) {
-      if (event.ray != FacetTessellation::kNoSite && contenders_.are_one_ray(event.to, end, event.ray, event.ray_end)) continue;
+      if (event.ray != FacetTessellation::kNoSite && contenders_.is_on_ray(event.to, end, event.ray, event.ray_end)) continue;
       const MaybeSign inside = along[end] ? Sign::zero : maybe_sign(cone_side(numbers, to, end, p));
       if (inside == Sign::negative) return Answer::no;
       if (inside == Sign::zero) on_ray = true;
@@ -343,6 +343,8 @@ bool OutlineWalk::at_one_point(std::size_t side, const Event& a, const Event& b)
   const auto alike = [&](std::uint32_t i, std::uint32_t j) {
     return i == j || contenders_.mirrored(i, j, side) != Sign::zero || tie_on_ray_along(side, i, j) || tie_on_ray_along(side, j, i);
   };
+  const bool on_rays = a.ray != FacetTessellation::kNoSite && b.ray != FacetTessellation::kNoSite;
+  if (on_rays && contenders_.are_one_ray(a.ray, a.ray_end, b.ray, b.ray_end)) return true;
   return a.is_tie() && b.is_tie() && (a.ray == FacetTessellation::kNoSite) == (b.ray == FacetTessellation::kNoSite) && alike(a.from, b.from) &&
          alike(a.to, b.to);
 }

@@ -95,6 +95,12 @@ Sign Ring::along_mirror(const Direction& change, const Direction& side) {
   return side.kind == Direction::Kind::side ? sense : -sense;
 }
 
+/// Whether the waves come along one line, by identity or as found before: what one eclipses ties with it on one line only.
+bool Ring::are_known_alike(std::uint32_t i, std::uint32_t j) const {
+  const std::uint32_t a = tied_[i].contender, b = tied_[j].contender;
+  return same_[i * tied_.size() + j] > 0 || contenders_.eclipses(a, b) || contenders_.eclipses(b, a);
+}
+
 /// Waves that come along one line grow alike.
 bool Ring::alike(std::uint32_t i, std::uint32_t j) { return i == j || same_direction(i, j) == true; }
 
@@ -109,7 +115,7 @@ Sign Ring::same_line(const Direction& a, const Direction& b) {
     return alike(a.a, b.a) && alike(a.b, b.b) ? Sign::positive : Sign::zero;
   }
   const auto to_an_image = [](Kind kind) { return kind == Kind::away || kind == Kind::towards; };
-  if (!to_an_image(a.kind) || !to_an_image(b.kind) || (a.a != b.a && same_[a.a * tied_.size() + b.a] <= 0)) return Sign::zero;
+  if (!to_an_image(a.kind) || !to_an_image(b.kind) || (a.a != b.a && !are_known_alike(a.a, b.a))) return Sign::zero;
   return a.kind == b.kind ? Sign::positive : Sign::negative;
 }
 
@@ -181,7 +187,7 @@ std::optional<bool> Ring::comes_before(const Direction& from, const Direction& a
 }
 
 bool Ring::is_on_node_ray(const Node& node, std::uint32_t wave, std::size_t end) const {
-  return node.ray != FacetTessellation::kNoSite && contenders_[wave].has_cone && contenders_.are_one_ray(wave, end, node.ray, node.ray_end);
+  return node.ray != FacetTessellation::kNoSite && contenders_[wave].has_cone && contenders_.is_on_ray(wave, end, node.ray, node.ray_end);
 }
 
 /// A wave ties with a relay of its own on their common ray and nowhere else: whether one that starts on this ray is known to tie too.
@@ -300,11 +306,7 @@ std::optional<bool> Ring::seen(std::uint32_t i, const Direction& d, Beside besid
 std::optional<bool> Ring::same_direction(std::uint32_t i, std::uint32_t j) {
   signed char& known = same_[i * tied_.size() + j];
   if (known == 0) {
-    const auto on_common_ray = [&](std::uint32_t parent, std::uint32_t relay) {
-      const int end = contenders_.tangent_end(tied_[parent].contender, tied_[relay].contender);
-      return end != Contenders::kNotTangent && tied_[parent].on_ray[static_cast<std::size_t>(end)];
-    };
-    if (on_common_ray(i, j) || on_common_ray(j, i)) {
+    if (are_known_alike(i, j)) {
       known = 1;
     } else {
       const Direction to_i{Direction::Kind::towards, i, 0}, to_j{Direction::Kind::towards, j, 0};

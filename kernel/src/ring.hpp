@@ -69,6 +69,7 @@ class Ring {
   bool relay_on_ray(std::uint32_t wave, std::size_t end, const Known& is_known) const;
   bool tie_by_identity(const Node& node, std::uint32_t i, std::uint32_t j) const;
   bool is_on_side_line(const Direction& d);
+  bool are_known_alike(std::uint32_t i, std::uint32_t j) const;
   bool alike(std::uint32_t i, std::uint32_t j);
   robust::MaybeSign turn_to_image(const Direction& side, const Direction& image, bool from_side);
   robust::MaybeSign turn(const Direction& a, const Direction& b);
