@@ -210,35 +210,51 @@ bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
 
 bool FieldWaves::are_proved_one_image(std::size_t a, std::size_t b) {
   if (sites[a].root != sites[b].root || sites[a].window == kNone || sites[b].window == kNone) return false;
-  const predicates::StripProgram of_a = strip_program(resolution_.frames(), strip(a));
-  if (sites[a].side == sites[b].side) {
-    const predicates::StripProgram of_b = strip_program(resolution_.frames(), strip(b));
-    return are_proved_equal(of_a.value({0, 1, 0, 0}), of_b.value({0, 1, 0, 0})) &&
-           are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
-  }
-  const predicates::StripProgram of_b = program_beyond(sites[a].side, b);
-  return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
-         are_proved_equal(of_a.value({0, 0, -1, 0}), of_b.value({0, 0, 1, 0}));
+  return have_one_image_by_algebra(sides_of(strip(a)), sides_of(strip(b)));
 }
 
+/// Of one root, through two strips that end in this facet. Over different sides, one image is seen from behind the other's side: 1 - z.
+bool FieldWaves::have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+  const predicates::StripProgram of_a = program_of(a);
+  const bool one_side = a.back() == b.back();
+  const predicates::StripProgram of_b = one_side ? program_of(b) : program_beyond(side_entered(a), b);
+  const std::array<long, 4> x = one_side ? std::array<long, 4>{0, 1, 0, 0} : std::array<long, 4>{0, -1, 0, 1};
+  return are_proved_equal(of_a.value(x), of_b.value({0, 1, 0, 0})) &&
+         are_proved_equal(of_a.value({0, 0, one_side ? 1 : -1, 0}), of_b.value({0, 0, 1, 0}));
+}
+
+/// Their mirror image in the side entered: conj(1 - z) as seen from behind it.
 bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
   const FacetSite &a = sites[entering], &b = sites[other];
   const std::uint8_t side = a.side;
   if (a.window == kNone || (b.window == kNone ? b.corner != (side + 2) % 3 : b.side == side)) return false;
   if (!resolution_.have_equal_distances(a.root, b.root)) return false;
-  const predicates::StripProgram of_a = strip_program(resolution_.frames(), strip(entering)), of_b = program_beyond(side, other);
+  const predicates::StripProgram of_a = program_of(sides_of(strip(entering)));
+  const predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(program_face(resolution_.frames(), face), side)
+                                                          : program_beyond(side, sides_of(strip(other)));
   return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
          are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
 }
 
-/// The image of a wave that comes over another side, or from the corner opposite, in the frame of `side` as the neighbour there sees it: in which an
-/// image z in the facet's own frame of that side is 1 - z.
-predicates::StripProgram FieldWaves::program_beyond(std::uint8_t side, std::size_t i) const {
+/// The side of this facet over which a strip comes in.
+std::uint8_t FieldWaves::side_entered(std::span<const HalfedgeId> sides) const {
+  return static_cast<std::uint8_t>(resolution_.frames().mesh().twin(sides.back()) % 3);
+}
+
+predicates::StripProgram FieldWaves::program_of(std::span<const HalfedgeId> sides) const {
   const Frames& frames = resolution_.frames();
-  const predicates::ProgramFace here = program_face(frames, face);
-  if (sites[i].window == kNone) return {here, side};
-  predicates::StripProgram program = strip_program(frames, strip(i));
-  program.cross(here, side, side == (sites[i].side + 2) % 3);
+  const auto of_face = [&](HalfedgeId h) { return program_face(frames, Mesh::face(h)); };
+  predicates::StripProgram program(of_face(sides[0]), sides[0] % 3);
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    program.cross(of_face(sides[i]), sides[i] % 3, sides[i] == Mesh::prev(frames.mesh().twin(sides[i - 1])));
+  return program;
+}
+
+/// The image of a strip that comes over another side, in the frame of `side` as the neighbour there sees it: in which an image z in the facet's own
+/// frame of that side is 1 - z.
+predicates::StripProgram FieldWaves::program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const {
+  predicates::StripProgram program = program_of(sides);
+  program.cross(program_face(resolution_.frames(), face), side, side == (side_entered(sides) + 2) % 3);
   return program;
 }
 
@@ -246,7 +262,7 @@ predicates::StripProgram FieldWaves::program_beyond(std::uint8_t side, std::size
 /// `relay`.
 bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
   if (sites[parent].window == kNone) return false;
-  return has_relay_on_strip(parent, relay) || has_relay_beyond_flat(parent, relay);
+  return has_relay_on_strip(parent, relay) || has_relay_on_other_way(parent, relay);
 }
 
 /// Whether the relay's strip is the end of the parent's, and before that the parent's strip turns about the relay since it arrived
@@ -301,8 +317,8 @@ std::optional<FieldWaves::Sides> FieldWaves::way_about(const Candidate& way, Ver
   return sides;
 }
 
-/// The same where the parent's strip and the way through the relay have only flat vertices between them.
-bool FieldWaves::has_relay_beyond_flat(std::size_t parent, std::size_t relay) const {
+/// The same where the parent's image is that of the way through the relay: because they have only flat vertices between them, or by algebra.
+bool FieldWaves::has_relay_on_other_way(std::size_t parent, std::size_t relay) const {
   const VertexId v = sites[relay].root;
   const Sides own = sides_of(strip(parent));
   const Sides rest = sites[relay].window == kNone ? Sides{} : sides_of(strip(relay));
@@ -313,7 +329,7 @@ bool FieldWaves::has_relay_beyond_flat(std::size_t parent, std::size_t relay) co
       auto way = way_about(field_.candidates[c], v, left, end);
       if (!way) continue;
       way->insert(way->end(), rest.begin(), rest.end());
-      if (enclose_only_flat(own, *way)) return true;
+      if (enclose_only_flat(own, *way) || have_one_image_by_algebra(own, *way)) return true;
     }
   }
   return false;

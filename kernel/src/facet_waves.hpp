@@ -62,9 +62,12 @@ class FieldWaves final : public FacetWaves {
   using Sides = std::vector<HalfedgeId>;
   static Sides sides_of(const predicates::Strip& strip);
   bool enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
-  predicates::StripProgram program_beyond(std::uint8_t side, std::size_t i) const;
+  bool have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
+  std::uint8_t side_entered(std::span<const HalfedgeId> sides) const;
+  predicates::StripProgram program_of(std::span<const HalfedgeId> sides) const;
+  predicates::StripProgram program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const;
   bool has_relay_on_strip(std::size_t parent, std::size_t relay) const;
-  bool has_relay_beyond_flat(std::size_t parent, std::size_t relay) const;
+  bool has_relay_on_other_way(std::size_t parent, std::size_t relay) const;
   std::optional<Sides> turn_about(HalfedgeId first, bool left, FaceId end) const;
   std::optional<Sides> way_about(const Candidate& way, VertexId v, bool left, FaceId end) const;
   void note_cone(FacetSite& site, const UnfoldedWindows<double>::Entry& unfolded) const;
