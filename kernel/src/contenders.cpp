@@ -217,6 +217,8 @@ bool Contenders::is_on_ray(std::size_t i, std::size_t end, std::uint32_t site, s
   if (list_[i].cone_site[end] == site && end == site_end) return true;
   for (std::size_t p = 0; p < list_.size(); ++p) {
     if (!list_[p].has_cone || list_[p].cone_site[site_end] != site || (!eclipses(p, i) && !eclipses(i, p))) continue;
+    const bool image_on_ray = tangent_end(p, i) == static_cast<int>(site_end) || tangent_end(i, p) == static_cast<int>(end);
+    if (image_on_ray && waves_.share_cone_vertex(site, site_end, list_[i].cone_site[end], end)) return true;
     for (std::size_t q = 0; q < list_.size(); ++q)
       if (tangent_end(p, q) == static_cast<int>(site_end) && tangent_end(i, q) == static_cast<int>(end)) return true;
   }

@@ -208,6 +208,18 @@ bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   return enclose_only_flat(sides_of(strip(left)), sides_of(strip(right)));
 }
 
+bool FieldWaves::share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) {
+  const VertexId v = sites[a].cone[end_a];
+  if (v == kNone || sites[b].cone[end_b] != v) return false;
+  const auto halfedge = [&](WindowId w) { return w == kNone ? kNone : field_.windows[w].halfedge(); };
+  const auto before = [&](WindowId w) { return w == kNone ? kNone : field_.windows[w].parent; };
+  for (WindowId x = sites[a].window, y = sites[b].window; halfedge(x) == halfedge(y) && x != kNone;) {
+    x = before(x), y = before(y);
+    if (x != kNone && halfedge(x) == halfedge(y) && resolution_.frames().mesh().apex(halfedge(x)) == v) return true;
+  }
+  return false;
+}
+
 bool FieldWaves::are_proved_one_image(std::size_t a, std::size_t b) {
   if (sites[a].root != sites[b].root || sites[a].window == kNone || sites[b].window == kNone) return false;
   return have_one_image_by_algebra(sides_of(strip(a)), sides_of(strip(b)));

@@ -90,6 +90,12 @@ class FacetWaves {
     return false;
   }
 
+  /// Whether two rays bound cones of windows in one and the same unfolded vertex, by identity: from that vertex on the strips cross the same sides.
+  virtual bool share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) {
+    static_cast<void>(a), static_cast<void>(end_a), static_cast<void>(b), static_cast<void>(end_b);
+    return false;
+  }
+
   /// The waves `which`, in their order, in the frame of the last side that the strips of all of them cross together, counting back from the facet:
   /// from there on they are unfolded alike, so whatever holds between them alone is told by fewer and simpler numbers. Empty if they have no side
   /// in common but the facet's own, or no exact numbers.
