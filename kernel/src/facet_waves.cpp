@@ -208,16 +208,25 @@ bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   return enclose_only_flat(sides_of(strip(left)), sides_of(strip(right)));
 }
 
+/// Both strips must have been beside the vertex once only, and have crossed the same sides since.
 bool FieldWaves::share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) {
   const VertexId v = sites[a].cone[end_a];
   if (v == kNone || sites[b].cone[end_b] != v) return false;
-  const auto halfedge = [&](WindowId w) { return w == kNone ? kNone : field_.windows[w].halfedge(); };
-  const auto before = [&](WindowId w) { return w == kNone ? kNone : field_.windows[w].parent; };
-  for (WindowId x = sites[a].window, y = sites[b].window; halfedge(x) == halfedge(y) && x != kNone;) {
-    x = before(x), y = before(y);
-    if (x != kNone && halfedge(x) == halfedge(y) && resolution_.frames().mesh().apex(halfedge(x)) == v) return true;
-  }
-  return false;
+  const auto since = [&](std::size_t site) {  // the half-edges back to the last one that v is an end of; none if v was left and met again
+    std::vector<HalfedgeId> way;
+    bool beside = false, left = false;
+    for (WindowId w = sites[site].window; w != kNone; w = field_.windows[w].parent) {
+      const HalfedgeId h = field_.windows[w].halfedge();
+      const bool is_end = resolution_.frames().mesh().origin(h) == v || resolution_.frames().mesh().target(h) == v;
+      if (left && is_end) return std::vector<HalfedgeId>();
+      if (!beside) way.push_back(h);
+      left = left || (beside && !is_end);
+      beside = beside || is_end;
+    }
+    return way;
+  };
+  const auto way = since(a);
+  return !way.empty() && way == since(b);
 }
 
 bool FieldWaves::are_proved_one_image(std::size_t a, std::size_t b) {
