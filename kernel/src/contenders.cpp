@@ -51,8 +51,14 @@ std::string Contenders::name(std::size_t i) const {
   return "site " + std::to_string(list_[i].site) + " (root " + std::to_string(list_[i].root) + ")";
 }
 
+/// As far as doubles can tell.
+bool Contenders::may_have_one_image(const FacetLadder& ladder, const Contender& left, const Contender& right) const {
+  if (!left.has_cone || !right.has_cone || left.root != right.root) return false;
+  return !separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image);
+}
+
 /// Pre: doubles do not separate the images. The image is one for windows that pass a flat corner of the facet on either side: identity. Elsewhere it takes the exact
-/// numbers.
+/// numbers. Pre: doubles cannot tell them apart.
 bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const bool round_corner = left.cone[1] == waves_.corner[k] && right.cone[0] == waves_.corner[k];
@@ -94,8 +100,7 @@ void Contenders::merge_same_images(FacetLadder& ladder) {
   for (std::size_t i = 0; i < list_.size(); ++i) {
     for (std::size_t j = 0; j < list_.size(); ++j) {
       Contender &left = list_[i], &right = list_[j];
-      if (i == j || !left.has_cone || !right.has_cone || left.root != right.root) continue;
-      if (separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image)) continue;
+      if (i == j || !may_have_one_image(ladder, left, right)) continue;
       if (!may_touch(ladder, left, right) || !same_image(ladder, left, right) || !touching(ladder, left, right)) continue;
       left.cone[1] = right.cone[1];
       left.attains_cone[1] = right.attains_cone[1];
@@ -152,7 +157,7 @@ void Contenders::share_eclipses(FacetLadder& ladder) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       const Contender &a = list_[i], &b = list_[j];
-      if (i == j || a.root != b.root || !a.has_cone || !b.has_cone || !same_image(ladder, a, b)) continue;
+      if (i == j || !may_have_one_image(ladder, a, b) || !same_image(ladder, a, b)) continue;
       eclipsed_[i * n + j] = 1;
       for (std::size_t k = 0; k < n; ++k) {
         if (k != i && eclipsed_[j * n + k] != 0) eclipsed_[i * n + k] = 1;

@@ -78,6 +78,7 @@ class Contenders {
 
  private:
   void merge_same_images(FacetLadder& ladder);
+  bool may_have_one_image(const FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool may_touch(const FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
