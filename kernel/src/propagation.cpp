@@ -49,7 +49,9 @@ Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& ki
   emitted_.assign(m, kNone);
   cut_at_shadow_.assign(n, 0);
   sends_again_.assign(n, 0);
-  field_.windows.reserve(2 * m);
+  // Some fifteen windows a face with one source, fewer with several: what is not used is never touched.
+  field_.windows.reserve(5 * m);
+  waves_.reserve(m / 2);
   field_.candidates.reserve(2 * n);
 }
 

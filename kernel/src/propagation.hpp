@@ -73,6 +73,8 @@ class Propagation {
   bool drain();
   bool may_go_on();
   void cross_face(HalfedgeId h);
+  void cross_face_by_avx(HalfedgeId h);
+  void cross_face_here(HalfedgeId h);
   void trim_list(HalfedgeId h);
   std::size_t sort_waiting(HalfedgeId h);
   Sight see_apex(std::uint32_t wave, HalfedgeId h, const Frame& frame, double inverse_length);

@@ -47,7 +47,8 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
   faces.clear();
   shadow.first = shadow.last = {};
   // The fan, counter-clockwise: face i of the fan lies between outgoing[i] and the next one.
-  std::vector<HalfedgeId> fan;
+  std::vector<HalfedgeId>& fan = shadow.fan;
+  fan.clear();
   mesh.for_each_outgoing(v, [&](HalfedgeId h) { fan.push_back(h); });
   const std::size_t n = fan.size();
   const bool closed = !mesh.is_boundary(v);

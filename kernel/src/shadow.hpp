@@ -17,6 +17,7 @@ struct ShadowRay {
 struct Shadow {
   std::vector<HalfedgeId> faces;
   ShadowRay first, last;  ///< the shadow lies counter-clockwise of the first ray, clockwise of the last
+  std::vector<HalfedgeId> fan;  ///< all faces at the relay, counter-clockwise
 };
 
 /// The shadow of an arrival at v: all that is not certainly within half a turn of it on either side. `over`: the half-edge of the arrival's window,

@@ -11,9 +11,6 @@ namespace {
 using predicates::kDistanceError;
 using predicates::kUnit;
 
-/// Overlaps shorter than this are left to both windows: that costs next to nothing, and most neighbours have been cut at their tie before.
-constexpr double kShortOverlap = 0x1p-16;
-
 /// A stretch of the edge; empty unless from < to.
 struct Stretch {
   double from = 1, to = 0;
@@ -136,8 +133,7 @@ bool cut(WindowInterval& loser, Stretch shorter, const WindowInterval& winner) {
 }  // namespace
 
 Trim trim(WindowInterval& first, WindowInterval& second, double length) {
-  const bool second_goes_on = first.begin < second.begin && first.end < second.end;
-  if (second_goes_on && first.end - second.begin < kShortOverlap) return Trim::none;
+  if (is_only_touched(first, second)) return Trim::none;
   Difference difference(first, second, length);
   if (difference.is_empty()) return Trim::none;
   Stretch first_shorter, second_shorter;

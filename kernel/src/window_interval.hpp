@@ -25,4 +25,11 @@ enum class Trim : std::uint8_t { none, drop_first, drop_second };
 /// Made for first.begin <= second.begin; sound without. Error bounds: docs/error-bounds.md#trimming.
 Trim trim(WindowInterval& first, WindowInterval& second, double length);
 
+/// Overlaps shorter than this are left to both windows: that costs next to nothing, and most neighbours have been cut at their tie before.
+inline constexpr double kShortOverlap = 0x1p-16;
+/// Whether the second window goes on where the first ends, or all but.
+inline bool is_only_touched(const WindowInterval& first, const WindowInterval& second) noexcept {
+  return first.end - second.begin < kShortOverlap && first.begin < second.begin && first.end < second.end;
+}
+
 }  // namespace gvd::kernel
