@@ -41,12 +41,24 @@ struct LaidOut {
   /// The corners in the plane: 1 in the origin, 2 on the positive x axis, 0 above it, what is crossed below.
   template <class Real>
   std::vector<RealPoint<Real>> flat() const {
+    auto p = flat_in_units<Real>();
+    const Real unit = sqrt(squared_unit<Real>());
+    for (auto& q : p) q = {q.x * unit, q.y * unit};
+    return p;
+  }
+  /// The same in units of the side 1 2: one root a face.
+  template <class Real>
+  std::vector<RealPoint<Real>> flat_in_units() const {
     std::vector<RealPoint<Real>> p(corner.size());
     p[1] = {Real(0), Real(0)};
-    p[2] = {sqrt(squared<Real>(corner[1], corner[2])), Real(0)};
+    p[2] = {Real(1), Real(0)};
     place(p, 0, 1, 2, true);
     for (std::size_t v = 3; v < corner.size(); ++v) place(p, v, edge[v - 3][0], edge[v - 3][1], false);
     return p;
+  }
+  template <class Real>
+  Real squared_unit() const {
+    return squared<Real>(corner[1], corner[2]);
   }
   /// The source, as `flat` has it.
   template <class Real>
@@ -65,7 +77,7 @@ struct LaidOut {
   template <class Real>
   void place(std::vector<RealPoint<Real>>& p, std::size_t v, std::size_t a, std::size_t b, bool left) const {
     const Real l = squared<Real>(corner[a], corner[b]), va = squared<Real>(corner[v], corner[a]), vb = squared<Real>(corner[v], corner[b]);
-    const Real t = (va - vb + l) / (2 * l), h = sqrt(abs(va / l - t * t));
+    const Real t = (va - vb + l) / (2 * l), h = sqrt(va / l - t * t);
     const Real dx = p[b].x - p[a].x, dy = p[b].y - p[a].y, s = left ? h : -h;
     p[v] = {p[a].x + t * dx - s * dy, p[a].y + t * dy + s * dx};
   }
