@@ -53,7 +53,7 @@ void core(State& state) {
 }
 
 BENCHMARK(span_test)->Name("equal_lengths/span_test")->Arg(2)->Arg(3)->Arg(4)->Arg(20)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
-BENCHMARK(core)->Name("equal_lengths/core")->Arg(2)->Arg(3)->Unit(benchmark::kMillisecond);
+BENCHMARK(core)->Name("equal_lengths/core")->Arg(2)->Arg(3)->Arg(4)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace gvd::bench
