@@ -170,6 +170,7 @@ TEST(TiesOnEdge, ExactCasesAreToldApart) {
     return w;
   };
   EXPECT_EQ(ties_on_edge(at(2, -2), at(2, -2), edge).stage, Stage::identity);
+  EXPECT_EQ(ties_on_edge(at(2, -2), at(2, -2), edge).kind, EdgeTies::Kind::everywhere);
   const EdgeTies mirror = ties_on_edge(at(2, -2), inside(2, 2), edge);
   EXPECT_EQ(mirror.kind, EdgeTies::Kind::everywhere);
   const EdgeTies lower = ties_on_edge(at(2, -3), at(2, -2), edge);
