@@ -1,0 +1,128 @@
+// Distances that differ from one another, or from a midpoint, by less than double-double sees, over more square classes than algebra multiplies out: MPFR decides.
+#include <gtest/gtest.h>
+
+#include "support/truth.hpp"
+
+namespace gvd::kernel {
+namespace {
+
+using predicates::Predicate;
+using robust::Stage;
+
+constexpr std::uint32_t kWidth = 12, kHeight = 4;
+
+/// Rough heights, the same on both sides of the middle, diagonals too.
+test::MeshArrays mirrored_terrain() {
+  test::Random random(31);
+  std::vector<double> height((kWidth + 1) * (kHeight + 1));
+  for (std::uint32_t y = 0; y <= kHeight; ++y) {
+    for (std::uint32_t x = 0; x <= kWidth / 2; ++x)
+      height[y * (kWidth + 1) + x] = height[y * (kWidth + 1) + kWidth - x] = 0.05 * random.uniform();
+  }
+  test::MeshArrays mesh;
+  for (std::uint32_t y = 0; y <= kHeight; ++y)
+    for (std::uint32_t x = 0; x <= kWidth; ++x) mesh.points.push_back({double(x), double(y), height[y * (kWidth + 1) + x]});
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      const std::uint32_t a = y * (kWidth + 1) + x, b = a + 1, d = a + kWidth + 1, c = d + 1;
+      if (x < kWidth / 2)
+        mesh.faces.insert(mesh.faces.end(), {{a, b, c}, {a, c, d}});
+      else
+        mesh.faces.insert(mesh.faces.end(), {{a, b, d}, {b, c, d}});
+    }
+  }
+  return mesh;
+}
+
+/// Which source is nearest at each vertex of the mirror line, and how many decisions MPFR made: one source in the first square, the other its mirror image, but
+/// `step` nearer to the mirror line.
+struct Answer {
+  std::vector<std::vector<SourceId>> nearest;
+  std::uint64_t by_mpfr;
+};
+Answer ask(const Mesh& mesh, const mpq_class& step) {
+  const Source left{point_in_face(mesh, 0, {mpq_class(1, 2), mpq_class(1, 4), mpq_class(1, 4)}), 0};
+  // Face 0 has the corners (0, 0), (1, 0), (1, 1); its image is found by their images.
+  const Source right = [&] {
+    for (FaceId f = 0; f < mesh.face_count(); ++f) {
+      std::array<mpq_class, 3> weight{0, 0, 0};
+      bool is_image = true;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const VertexId v = mesh.origin(3 * f + k);
+        if (v == kWidth)
+          weight[k] = mpq_class(1, 2) - step;
+        else if (v == kWidth - 1)
+          weight[k] = mpq_class(1, 4) + step;
+        else if (v == 2 * kWidth)
+          weight[k] = mpq_class(1, 4);
+        else
+          is_image = false;
+      }
+      if (is_image) return Source{point_in_face(mesh, f, weight), 0};
+    }
+    throw std::logic_error("no mirror image");
+  }();
+  const auto solution = solve(mesh, {left, right}, test::distances_only());
+  Answer answer{{}, solution.decisions()(static_cast<std::size_t>(Predicate::vertex_distance), Stage::mpfr)};
+  for (VertexId v = kWidth / 2; v < mesh.vertex_count(); v += kWidth + 1) {
+    const auto told = solution.nearest(v);
+    answer.nearest.emplace_back(told.begin(), told.end());
+  }
+  return answer;
+}
+
+TEST(NearTies, MpfrTellsSourcesApart) {
+  const Mesh mesh(mirrored_terrain());
+  const Answer coarse = ask(mesh, mpq_class(1, 1 << 20)), coarse_back = ask(mesh, mpq_class(-1, 1 << 20));
+  EXPECT_EQ(coarse.by_mpfr, 0u);
+  std::uint64_t by_mpfr = 0;
+  for (const unsigned bits : {150u, 250u, 400u}) {
+    const mpq_class step(1, mpz_class(1) << bits);
+    const Answer fine = ask(mesh, step), back = ask(mesh, -step);
+    EXPECT_EQ(fine.nearest, coarse.nearest) << bits;
+    EXPECT_EQ(back.nearest, coarse_back.nearest) << bits;
+    by_mpfr += fine.by_mpfr + back.by_mpfr;
+  }
+  EXPECT_NE(coarse.nearest, coarse_back.nearest);
+  EXPECT_GT(by_mpfr, 0u);
+}
+
+/// The distance of the far end of the terrain from a source that moves along a side of its face.
+double distance_from(const Mesh& mesh, const mpq_class& t, std::uint64_t& by_mpfr) {
+  const auto solution = solve(mesh, {{point_in_face(mesh, 0, {mpq_class(1, 2) - t, mpq_class(1, 4) + t, mpq_class(1, 4)}), 0}}, test::distances_only());
+  EXPECT_TRUE(test::is_certified(solution));
+  by_mpfr += solution.decisions()(static_cast<std::size_t>(Predicate::rounding), Stage::mpfr);
+  return solution.distance(kWidth + kWidth);
+}
+
+// Between two places with neighbouring doubles for distances there is one where the distance lies halfway. It is approached until only MPFR tells on which side the
+// source is: the answer must stay one of the two doubles.
+TEST(NearTies, MpfrRoundsNearMidpoints) {
+  const Mesh mesh(mirrored_terrain());
+  std::uint64_t by_mpfr = 0;
+  mpq_class low = 0, high = 0;
+  const double first = distance_from(mesh, low, by_mpfr);
+  double second = first;
+  while (second == first) {
+    low = high;
+    high += mpq_class(1, mpz_class(1) << 52);
+    second = distance_from(mesh, high, by_mpfr);
+  }
+  ASSERT_TRUE(second == std::nextafter(first, 0) || second == std::nextafter(first, HUGE_VAL));
+  for (int step = 0; step < 130; ++step) {
+    const mpq_class middle = (low + high) / 2;
+    const double d = distance_from(mesh, middle, by_mpfr);
+    ASSERT_TRUE(d == first || d == second) << step;
+    (d == first ? low : high) = middle;
+  }
+  // Around that place the answers are those of either side, at every distance from it.
+  for (unsigned bits = 60; bits < 140; ++bits) {
+    const mpq_class step(1, mpz_class(1) << bits);
+    EXPECT_EQ(distance_from(mesh, low - step, by_mpfr), first) << bits;
+    EXPECT_EQ(distance_from(mesh, high + step, by_mpfr), second) << bits;
+  }
+  EXPECT_GT(by_mpfr, 40u);
+}
+
+}  // namespace
+}  // namespace gvd::kernel
