@@ -147,7 +147,7 @@ class Tracer {
   }
 
   /// Whether they have one image, by algebra: the same distances from the ends of the edge that the facets share, on the same side
-  /// of it. Pre: one root. Empty where the strips are not of one square class.
+  /// of it. Pre: one root. Empty where the strips cross too many square classes.
   std::optional<bool> same_at_edge(DirectedLink in, DirectedLink out, std::size_t side) const {
     using predicates::operator-;
     const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];

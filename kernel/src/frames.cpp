@@ -140,7 +140,10 @@ std::shared_ptr<const Frames::RootFrames> Frames::in_roots(FaceId f) const {
   const std::scoped_lock lock(slot.mutex);
   if (slot.face != f) {
     const ExactFace face = exact(f);
-    const robust::RootSum area = doubled_area(f, face.radicand);
+    const robust::RootSum area = [&] {
+      const std::scoped_lock classes(classes_.mutex);
+      return classes_.list.root(face.radicand);
+    }();
     auto frames = std::make_shared<RootFrames>();
     for (std::size_t k = 0; k < 3; ++k) (*frames)[k] = predicates::root_frame(face, k, area);
     slot.frames = std::move(frames);
@@ -151,30 +154,9 @@ std::shared_ptr<const Frames::RootFrames> Frames::in_roots(FaceId f) const {
 
 std::uint32_t Frames::square_class(FaceId f) const {
   const std::scoped_lock lock(classes_.mutex);
-  if (!classes_.of_face.empty() && classes_.of_face[f] != kNone) return classes_.of_face[f];
-  return class_of(f, exact(f).radicand);
-}
-
-/// Pre: the mutex is locked.
-std::uint32_t Frames::class_of(FaceId f, const mpq_class& radicand) const {
   if (classes_.of_face.empty()) classes_.of_face.assign(mesh_.face_count(), kNone);
-  if (classes_.of_face[f] != kNone) return classes_.of_face[f];
-  const std::uint64_t signature = robust::square_class_signature(radicand);
-  const auto [first, last] = classes_.by_signature.equal_range(signature);
-  for (auto it = first; it != last; ++it)
-    if (robust::same_square_class(classes_.representative[it->second], radicand)) return classes_.of_face[f] = it->second;
-  const auto id = static_cast<std::uint32_t>(classes_.representative.size());
-  classes_.representative.push_back(radicand);
-  classes_.root.emplace_back(1, radicand);
-  classes_.by_signature.emplace(signature, id);
-  return classes_.of_face[f] = id;
-}
-
-/// The root of the face's radicand, by that of its class.
-robust::RootSum Frames::doubled_area(FaceId f, const mpq_class& radicand) const {
-  const std::scoped_lock lock(classes_.mutex);
-  const std::uint32_t id = class_of(f, radicand);
-  return classes_.root[id] * *robust::rational_square_root(radicand / classes_.representative[id]);
+  if (classes_.of_face[f] == kNone) classes_.of_face[f] = classes_.list(exact(f).radicand);
+  return classes_.of_face[f];
 }
 
 }  // namespace gvd::kernel

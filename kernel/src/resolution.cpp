@@ -8,6 +8,7 @@
 
 #include "exact_unfoldings.hpp"
 #include "gvd/kernel/error.hpp"
+#include "gvd/predicates/compare_legs.hpp"
 #include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/robust/rational.hpp"
 #include "gvd/robust/rounding.hpp"
@@ -302,23 +303,7 @@ bool Resolution::are_equal(const Leg& a, const Leg& b) const {
 
 /// The sign of the difference of the lengths. Equal legs cancel, the same ones without any arithmetic.
 robust::MaybeSign Resolution::compare(const Path& a, const Path& b) const {
-  std::vector<const Leg*> more, less;
-  for (const Leg& leg : a.legs) more.push_back(&leg);
-  for (const Leg& leg : b.legs) {
-    const auto equal = std::find_if(more.begin(), more.end(), [&](const Leg* other) { return are_equal(leg, *other); });
-    if (equal == more.end())
-      less.push_back(&leg);
-    else
-      more.erase(equal);
-  }
-  Exact difference(a.weight - b.weight);
-  for (const auto* legs : {&more, &less})
-    for (const Leg* leg : *legs) {
-      if (!leg->squared) return std::nullopt;
-      const Exact length = sqrt(Exact(*leg->squared));
-      difference += legs == &more ? length : -length;
-    }
-  return maybe_sign(difference);
+  return predicates::compare_legs(mpq_class(a.weight - b.weight), a.legs, b.legs, [&](const Leg& x, const Leg& y) { return are_equal(x, y); });
 }
 
 bool Resolution::attains(WindowId window, VertexId v) const noexcept {

@@ -5,9 +5,8 @@
 
 #include "face_map.hpp"
 #include "gvd/predicates/strip_numbers.hpp"
-#include "gvd/robust/root_sum.hpp"
+#include "gvd/robust/exact.hpp"
 #include "gvd/robust/rounding.hpp"
-#include "rational_frame.hpp"
 
 namespace gvd::kernel {
 namespace {
@@ -15,6 +14,7 @@ namespace {
 using predicates::Strip;
 using robust::Ball;
 using robust::DoubleDouble;
+using robust::Exact;
 using robust::Mpfr;
 using robust::Sign;
 
@@ -46,11 +46,12 @@ Reported report(const Ball<T>& x) {
   const double value = robust::Midpoint<T>::nearest(x.mid());
   return {{value, x.lower(), x.upper()}, x.rad() <= std::fabs(value) * 0x1p-55};
 }
-Reported report(const mpq_class& x) {
-  const auto ball = robust::from<Ball<DoubleDouble>>(x);
-  return {{robust::RootSum(x).rounded(), ball.lower(), ball.upper()}, true};
+Reported report(const Exact& x) {
+  constexpr int kBits = 128;
+  const auto value = rounded(x);
+  const auto ball = x.enclosure(kBits);
+  return {{value.value_or(0), ball.lower(), ball.upper()}, value.has_value()};
 }
-robust::MaybeSign maybe_sign(const mpq_class& x) { return static_cast<Sign>(sgn(x)); }
 
 class StripWalk {
  public:
@@ -65,25 +66,18 @@ class StripWalk {
   StripCrossings run() {
     const auto double_double = [&](HalfedgeId h) -> decltype(auto) { return frames_.in_double_double(h); };
     if (attempt(predicates::disc_numbers<DoubleDouble>(double_double))) return std::move(result_);
-    if (is_of_one_class()) {
-      const mpq_class radicand = frames_.exact(Mesh::face(strip_.opposite)).radicand;
-      if (attempt(predicates::RationalNumbers([&](HalfedgeId h) { return rational_frame(frames_, h, radicand); }, radicand)))
-        return std::move(result_);
-    }
-    for (const int bits : {128, 256, 512, 1024}) {
-      MpfrFrames cache;
-      const auto mpfr = [&](HalfedgeId h) -> decltype(auto) { return cache(frames_, h, bits); };
-      if (attempt(predicates::disc_numbers<Mpfr>(mpfr, bits))) return std::move(result_);
-    }
-    result_.undecided = true;
+    if (attempt_mpfr(128) || attempt_mpfr(256)) return std::move(result_);
+    // What 256 bits cannot tell is a path through a vertex more often than not.
+    if (attempt(predicates::RootNumbers([&](HalfedgeId h) { return (*frames_.in_roots(Mesh::face(h)))[h % 3]; }))) return std::move(result_);
+    result_.undecided = !attempt_mpfr(512) && !attempt_mpfr(1024);
     return std::move(result_);
   }
 
  private:
-  bool is_of_one_class() const {
-    const std::uint32_t square_class = frames_.square_class(Mesh::face(strip_.opposite));
-    return std::all_of(entry_.begin(), entry_.end(),
-                       [&](HalfedgeId h) { return frames_.square_class(Mesh::face(h)) == square_class; });
+  bool attempt_mpfr(int bits) {
+    MpfrFrames cache;
+    const auto frame = [&](HalfedgeId h) -> decltype(auto) { return cache(frames_, h, bits); };
+    return attempt(predicates::disc_numbers<Mpfr>(frame, bits));
   }
 
   /// All crossings in one number type; false if one of them is open or not sharp. Then the list is the best known.

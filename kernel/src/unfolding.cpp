@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "gvd/kernel/error.hpp"
-#include "rational_frame.hpp"
-
 namespace gvd::kernel {
 
 using predicates::Strip;
@@ -49,12 +46,6 @@ Unfolding<Mpfr> unfold_mpfr(const Frames& frames, const Strip& strip, int bits, 
 Unfolding<Mpfr> unfold_mpfr(const Frames& frames, const Strip& strip, int bits) {
   MpfrFrames cache;
   return unfold_mpfr(frames, strip, bits, cache);
-}
-
-RationalFrame rational_frame(const Frames& frames, HalfedgeId h, const mpq_class& radicand) {
-  const auto frame = predicates::rational_frame(frames.exact(Mesh::face(h)), h % 3, radicand);
-  if (!frame) throw InternalError("unfolding: a face is not of the square class of its strip");
-  return *frame;
 }
 
 predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h) {

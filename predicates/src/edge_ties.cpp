@@ -182,7 +182,6 @@ std::optional<EdgeTies> ties_on_edge_at(const Rung& rung, const Window& a, const
     const std::array<const Window*, 2> windows{&a, &b};
     result = window_stage<EdgeTies>(rung, windows, [&]<class NT>(int bits) -> std::optional<EdgeTies> {
       const WindowNumbers<NT> na(a, bits), nb(b, bits);
-      if (!na.is_known() || !nb.is_known()) return std::nullopt;
       return EdgeComparison<NT>(seen_from_edge(na, place_a), seen_from_edge(nb, place_b), same_weight).run();
     });
   }

@@ -92,4 +92,12 @@ const ExactFace& FaceShape::exact() const {
   return exact_;
 }
 
+const std::array<EdgeFrame<robust::RootSum>, 3>& FaceShape::in_roots() const {
+  std::call_once(roots_once_, [&] {
+    const robust::RootSum doubled_area(1, exact().radicand);
+    for (std::size_t k = 0; k < 3; ++k) roots_[k] = root_frame(exact(), k, doubled_area);
+  });
+  return roots_;
+}
+
 }  // namespace gvd::predicates

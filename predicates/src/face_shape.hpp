@@ -5,6 +5,7 @@
 
 #include "gvd/predicates/face_frames.hpp"
 #include "gvd/predicates/face_strip.hpp"
+#include "gvd/predicates/root_strip.hpp"
 
 namespace gvd::predicates {
 
@@ -32,6 +33,8 @@ class FaceShape {
   /// Not kept.
   std::array<EdgeFrame<robust::Mpfr>, 3> in_mpfr(int bits) const;
   const ExactFace& exact() const;
+  /// Without the lengths.
+  const std::array<EdgeFrame<robust::RootSum>, 3>& in_roots() const;
 
  private:
   void prepare();
@@ -44,9 +47,10 @@ class FaceShape {
   int exponent_ = 0;
   bool in_range_ = false;
   std::array<EdgeFrame<double>, 3> double_;
-  mutable std::once_flag double_double_once_, exact_once_;
+  mutable std::once_flag double_double_once_, exact_once_, roots_once_;
   mutable std::array<EdgeFrame<robust::DoubleDouble>, 3> double_double_;
   mutable ExactFace exact_;
+  mutable std::array<EdgeFrame<robust::RootSum>, 3> roots_;
 };
 
 }  // namespace gvd::predicates

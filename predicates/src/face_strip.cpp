@@ -131,36 +131,22 @@ std::pair<std::uint32_t, std::uint8_t> StripAccess::vertex_place(std::size_t v) 
   return {1, v == strip_.exit_ ? 1 : 0};
 }
 
-std::optional<RationalFrames> StripAccess::rational() const {
-  RationalFrames result{last().exact().radicand, {}};
-  for (const auto& face : strip_.faces_) {
-    auto& frames = result.of_face.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      auto frame = rational_frame(face->exact(), k, result.radicand);
-      if (!frame) return std::nullopt;
-      frames[k] = std::move(*frame);
-    }
-  }
-  return result;
-}
-
 MaybeSign ray_side_at(const Rung& rung, const FaceStrip& strip, std::size_t through, std::size_t v) {
   const StripAccess at(strip);
   at.require_vertex(through);
   at.require_vertex(v);
-  const auto side = [&](auto& numbers) {
-    return sign_of(orientation(numbers.coordinates(at.image(numbers)), numbers.coordinates(at.vertex(numbers, through)),
-                               numbers.coordinates(at.vertex(numbers, v))));
+  const auto turn = [&](auto& numbers) {
+    return orientation(numbers.coordinates(at.image(numbers)), numbers.coordinates(at.vertex(numbers, through)),
+                       numbers.coordinates(at.vertex(numbers, v)));
   };
   if (rung.stage == Stage::identity)
     return through == v || at.is_source(through) || at.is_source(v) ? MaybeSign(Sign::zero) : std::nullopt;
   if (rung.stage == Stage::algebra) {
-    const auto frames = at.rational();
-    if (!frames) return std::nullopt;
-    return with_rationals(*frames, [&](auto& numbers, const mpq_class&) { return side(numbers); });
+    const auto exact = with_roots(at, turn);
+    return exact ? maybe_sign(*exact) : std::nullopt;
   }
   return numeric_stage<Sign>(rung, at.is_in_range(),
-                             [&]<class T>(int bits) -> MaybeSign { return with_numbers<T>(at, bits, side); });
+                             [&]<class T>(int bits) -> MaybeSign { return maybe_sign(with_numbers<T>(at, bits, turn)); });
 }
 
 Decision ray_side(const FaceStrip& strip, std::size_t through, std::size_t v) {

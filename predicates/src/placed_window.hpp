@@ -16,7 +16,6 @@ class WindowNumbers<robust::Ball<T>> {
   using NT = robust::Ball<T>;
   WindowNumbers(const Window& window, int bits) : at_(window.strip), window_(window), bits_(bits) {}
 
-  bool is_known() const { return true; }
   PlanePoint<NT> image() const {
     return with_numbers<T>(at_, bits_, [&](auto& numbers) { return numbers.coordinates(at_.image(numbers)); });
   }
@@ -36,38 +35,38 @@ class WindowNumbers<robust::Ball<T>> {
   int bits_;
 };
 
+/// Undefined where a coordinate or a weight would be too long a sum: then the signs that need it are empty.
 template <>
 class WindowNumbers<robust::Exact> {
  public:
   using NT = robust::Exact;
-  WindowNumbers(const Window& window, int) : at_(window.strip), frames_(at_.rational()), weight_(exact_length(window.weight)) {}
+  WindowNumbers(const Window& window, int) : at_(window.strip), window_(window) {}
 
-  bool is_known() const { return frames_ && weight_ && weight_->terms().size() <= kMostRoots; }
   PlanePoint<NT> image() const {
-    return with_rationals(*frames_, [&](auto& numbers, const mpq_class& n) { return point(at_.image(numbers), n); });
+    return point([&](auto& numbers) { return at_.image(numbers); });
   }
   PlanePoint<NT> vertex(std::size_t v) const {
-    return with_rationals(*frames_, [&](auto& numbers, const mpq_class& n) { return point(at_.vertex(numbers, v), n); });
+    return point([&](auto& numbers) { return at_.vertex(numbers, v); });
   }
   PlanePoint<NT> apex() const {
-    return with_rationals(*frames_,
-                          [&](auto& numbers, const mpq_class& n) { return point(numbers.in_face(at_.last_halfedge(), 0, 1), n); });
+    return point([&](auto& numbers) { return numbers.in_face(at_.last_halfedge(), 0, 1); });
   }
   NT weight(std::size_t k) const {
-    const mpq_class squared = at_.last().exact().squared[k] * robust::power_of_two(2 * at_.last().exponent());
-    NT sum = sgn(weight_->constant()) == 0 ? NT(0.0) : NT(weight_->constant()) / sqrt(NT(squared));
-    for (const auto& term : weight_->terms()) sum = sum + NT(term.coefficient) * sqrt(NT(mpq_class(term.radicand / squared)));
-    return sum;
+    const auto length = exact_length(window_.weight);
+    if (!length) return NT::undefined();
+    return *length / sqrt(NT(mpq_class(at_.last().exact().squared[k] * robust::power_of_two(2 * at_.last().exponent()))));
   }
 
  private:
-  /// An exact weight of more roots is left to the MPFR stage.
-  static constexpr std::size_t kMostRoots = 4;
-  static PlanePoint<NT> point(const QuadraticPoint& z, const mpq_class& n) { return {NT(z.x), NT(z.y) * sqrt(NT(n))}; }
+  template <class Visit>
+  PlanePoint<NT> point(const Visit& visit) const {
+    const auto z = with_roots(at_, visit);
+    if (!z) return {NT::undefined(), NT::undefined()};
+    return {NT(z->x), NT(z->y)};
+  }
 
   StripAccess at_;
-  std::optional<RationalFrames> frames_;
-  std::optional<robust::RootSum> weight_;
+  const Window& window_;
 };
 
 /// Places (0 origin, 1 target, 2 apex) of the given points in the last face of a strip. Throws std::invalid_argument if one is no corner.

@@ -9,17 +9,13 @@
 /// The points of a FaceStrip in any number type, in the frame of the entry edge of its last face (of the first side of its only face).
 namespace gvd::predicates {
 
-/// Frames of a strip in rationals over the root of one radicand.
-struct RationalFrames {
-  mpq_class radicand;
-  std::vector<std::array<RationalFrame, 3>> of_face;
-};
-
 class StripAccess {
  public:
   explicit StripAccess(const FaceStrip& strip) : strip_(strip) {}
 
   const FaceStrip& strip() const noexcept { return strip_; }
+  /// Half-edge 3 k + j is side j of face k. Pre: at least one crossing.
+  const Strip& steps() const noexcept { return strip_.strip_; }
   const FaceShape& last() const { return *strip_.faces_.back(); }
   const FaceShape& face(std::size_t k) const { return *strip_.faces_[k]; }
   std::size_t face_count() const noexcept { return strip_.faces_.size(); }
@@ -30,8 +26,6 @@ class StripAccess {
   bool is_in_range() const {
     return std::all_of(strip_.faces_.begin(), strip_.faces_.end(), [](const auto& face) { return face->is_in_range(); });
   }
-  /// Empty unless all faces are of one square class. The radicand is that of the last face.
-  std::optional<RationalFrames> rational() const;
 
   /// Where the source is if it is a corner of the first face.
   std::optional<std::size_t> source_corner() const;
@@ -106,17 +100,13 @@ decltype(auto) with_numbers(const StripAccess& at, int bits, Visit&& visit) {
   }
 }
 
-/// The same over rationals; `visit(numbers, radicand)`. Pre: `frames` are those of the strip.
+/// What visit(numbers) says of a strip in sums of roots; empty if a coordinate is too long a sum.
 template <class Visit>
-decltype(auto) with_rationals(const RationalFrames& frames, Visit&& visit) {
-  RationalNumbers numbers([&](std::uint32_t h) -> const RationalFrame& { return frames.of_face[h / 3][h % 3]; }, frames.radicand);
-  return visit(numbers, frames.radicand);
-}
-
-inline robust::MaybeSign sign_of(const mpq_class& x) { return static_cast<robust::Sign>(sgn(x)); }
-template <class T>
-robust::MaybeSign sign_of(const robust::Ball<T>& x) {
-  return maybe_sign(x);
+auto with_roots(const StripAccess& at, const Visit& visit) {
+  RootNumbers numbers([&](std::uint32_t h) -> const EdgeFrame<robust::RootSum>& { return at.face(h / 3).in_roots()[h % 3]; });
+  std::optional result(visit(numbers));
+  if (!numbers.is_known()) result.reset();
+  return result;
 }
 
 /// Runs the numeric stage of a rung: test.template operator()<T>(bits), T = double, DoubleDouble or Mpfr. Empty for the others, and if

@@ -1,16 +1,21 @@
 #include "gvd/predicates/strip_path.hpp"
 
+#include "gvd/predicates/compare_legs.hpp"
+#include "gvd/predicates/strip_program.hpp"
 #include "gvd/robust/rounding.hpp"
+#include "gvd/robust/square_classes.hpp"
 #include "path_numbers.hpp"
 
 namespace gvd::predicates {
 
 using robust::Ball;
 using robust::DoubleDouble;
+using robust::Exact;
 using robust::MaybeSign;
 using robust::Mpfr;
 using robust::RootSum;
 using robust::Sign;
+using robust::SquareClasses;
 using robust::Stage;
 
 namespace {
@@ -28,15 +33,55 @@ std::pair<Path, Path> without_common_legs(const Path& a, const Path& b) {
   return rest;
 }
 
-/// In the square of the caller's units; empty if the faces are of several square classes.
-std::optional<mpq_class> exact_squared_length(const Leg& leg) {
+/// In the square of the caller's units; empty if that is too long a sum.
+std::optional<RootSum> exact_squared_length(const Leg& leg) {
   const StripAccess at(leg.strip);
-  const auto frames = at.rational();
-  if (!frames) return std::nullopt;
-  return with_rationals(*frames, [&](auto& numbers, const mpq_class& radicand) -> mpq_class {
-    const auto d = numbers.coordinates(at.image(numbers)) - numbers.coordinates(at.in_last_face(numbers, leg.end));
-    return (d.x * d.x + d.y * d.y * radicand) * at.last().exact().squared[0] * robust::power_of_two(2 * at.last().exponent());
+  const auto d = with_roots(at, [&](auto& numbers) {
+    return numbers.coordinates(at.image(numbers)) - numbers.coordinates(at.in_last_face(numbers, leg.end));
   });
+  if (!d) return std::nullopt;
+  return squared_norm(*d) * (at.last().exact().squared[0] * robust::power_of_two(2 * at.last().exponent()));
+}
+
+/// A leg of a comparison.
+struct ExactLeg {
+  const Leg* leg;
+  std::optional<RootSum> squared;  ///< length; empty if that is too long a sum
+};
+std::vector<ExactLeg> exact_legs(const Path& path) {
+  std::vector<ExactLeg> legs;
+  for (const Leg& leg : path.legs) legs.push_back({&leg, exact_squared_length(leg)});
+  return legs;
+}
+
+/// In the caller's units.
+ProgramFace program_face(const FaceShape& shape, SquareClasses& classes) {
+  ProgramFace result{shape.exact(), {}};
+  const mpq_class unit = robust::power_of_two(2 * shape.exponent());
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.face.dot[k] *= unit;
+    result.face.squared[k] *= unit;
+  }
+  result.face.radicand *= unit * unit;
+  result.doubled_area = classes.root(result.face.radicand);
+  return result;
+}
+
+/// Pre: the leg crosses an edge.
+robust::RootProgram squared_length_program(const Leg& leg, SquareClasses& classes) {
+  const StripAccess at(leg.strip);
+  const auto face = [&](std::uint32_t h) { return program_face(at.face(h / 3), classes); };
+  const std::array<mpq_class, 3> b = at.placed(leg.end);
+  return strip_program(at.steps(), face).squared_distance(face(at.last_halfedge()), 0, b[1], b[2]);
+}
+
+/// By sums of roots where both have one, otherwise by the span test. A leg within one face always has one.
+bool are_equal(const ExactLeg& a, const ExactLeg& b) {
+  if (a.squared && b.squared) return (*a.squared - *b.squared).is_zero();
+  if (a.leg->strip.crossings() == 0 || b.leg->strip.crossings() == 0) return false;
+  SquareClasses classes;
+  const auto first = squared_length_program(*a.leg, classes);
+  return robust::are_proved_equal(first, squared_length_program(*b.leg, classes));
 }
 
 }  // namespace
@@ -45,12 +90,12 @@ Leg::Leg(FaceStrip s, const FacePoint& e) : strip(std::move(s)), end{normalised(
 
 bool operator==(const Leg& a, const Leg& b) { return a.strip == b.strip && a.end.weight == b.end.weight; }
 
-std::optional<RootSum> exact_length(const Path& path) {
-  RootSum sum(path.given);
+std::optional<Exact> exact_length(const Path& path) {
+  Exact sum(path.given);
   for (const Leg& leg : path.legs) {
-    const auto squared = exact_squared_length(leg);
+    auto squared = exact_squared_length(leg);
     if (!squared) return std::nullopt;
-    sum.add(1, *squared);
+    sum += sqrt(Exact(std::move(*squared)));
   }
   return sum;
 }
@@ -58,12 +103,8 @@ std::optional<RootSum> exact_length(const Path& path) {
 MaybeSign compare_lengths_at(const Rung& rung, const Path& a, const Path& b) {
   const auto [first, second] = without_common_legs(a, b);
   if (rung.stage == Stage::identity)
-    return first.legs.empty() && second.legs.empty() ? sign_of(first.given) : std::nullopt;
-  if (rung.stage == Stage::algebra) {
-    const auto x = exact_length(first), y = exact_length(second);
-    if (!x || !y) return std::nullopt;
-    return compare(*x, *y);
-  }
+    return first.legs.empty() && second.legs.empty() ? MaybeSign(static_cast<Sign>(sgn(first.given))) : std::nullopt;
+  if (rung.stage == Stage::algebra) return compare_legs(first.given, exact_legs(first), exact_legs(second), are_equal);
   return numeric_stage<Sign>(rung, is_in_range(first) && is_in_range(second), [&, &x = first, &y = second]<class T>(int bits) -> MaybeSign {
     return maybe_sign(length_in<T>(x, bits) - length_in<T>(y, bits));
   });
@@ -86,7 +127,8 @@ Enclosure length(const Path& path) {
 RoundedLength rounded_length(const Path& path) {
   for (const Rung& rung : kRungs) {
     if (rung.stage == Stage::algebra) {
-      if (const auto sum = exact_length(path)) return {sum->rounded(), Stage::algebra};
+      const auto sum = exact_length(path);
+      if (const auto value = sum ? robust::rounded(*sum) : std::nullopt) return {value, Stage::algebra};
       continue;
     }
     const auto value = numeric_stage<double>(

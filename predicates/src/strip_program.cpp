@@ -97,15 +97,18 @@ RootProgram StripProgram::value(const std::array<long, 4>& functional) const {
   return result;
 }
 
-/// Over `prev` into the frame in which the apex is 1.
-RootProgram StripProgram::squared_distance_to_apex(const ProgramFace& face, std::size_t k) const {
-  const std::size_t prev = (k + 2) % 3;
-  StripProgram all = *this;
-  all.cross(face, prev, true);
-  const mpq_class& squared = face.face.squared[prev];
-  const mpz_class& n = squared.get_num();
-  all.program_.finish({n, -2 * n, 0, n}, all.denominator_.get_num() * squared.get_den());
-  return all.program_;
+/// |z - p|^2 = |z|^2 - 2 z.p + |p|^2 with p = b1 + b2 w: one more layer over the face's root.
+RootProgram StripProgram::squared_distance(const ProgramFace& face, std::size_t k, const mpq_class& b1, const mpq_class& b2) const {
+  const mpq_class &squared = face.face.squared[k], &dot = face.face.dot[k], &from = face.face.squared[(k + 2) % 3];
+  RationalMatrix constant, factor;
+  constant[0] = {squared, -2 * (b1 * squared + b2 * dot), 0, b1 * b1 * squared + 2 * b1 * b2 * dot + b2 * b2 * from};
+  factor[0][2] = -2 * b2;
+  WholeLayer whole(constant, factor, face.doubled_area);
+  RootProgram result = program_;
+  result.append(std::move(whole.layer));
+  const mpq_class denominator = denominator_ * whole.scale;
+  result.finish({denominator.get_den(), 0, 0, 0}, denominator.get_num());
+  return result;
 }
 
 }  // namespace gvd::predicates

@@ -89,7 +89,6 @@ std::optional<Conflict> conflict_at(const Rung& rung, const FaceCorners& facet, 
     std::array<Site<NT>, 4> site;
     for (std::size_t i = 0; i < 4; ++i) {
       const WindowNumbers<NT> numbers(*w[i], bits);
-      if (!numbers.is_known()) return std::nullopt;
       site[i] = seen_in_facet(*w[i], numbers, place[i]);
     }
     return conflict_in(site, pivot_weight, rival_is_one);

@@ -14,16 +14,6 @@ constexpr std::array<std::uint16_t, 64> kPrimeOffsets = {
     1197, 1241, 1293, 1353, 1433, 1515, 1553, 1575, 1581, 1595, 1617, 1673, 1697, 1701, 1703, 1823,
     1881, 1911, 1923, 2043, 2073, 2103, 2141, 2187, 2217, 2247, 2285, 2351, 2367, 2375, 2397, 2421};
 
-// Legendre symbol of the part of n that is free of p, as a bit. Pre: n is not zero.
-std::uint64_t is_non_residue(const mpz_class& n, std::uint64_t p) {
-  if (mpz_divisible_ui_p(n.get_mpz_t(), p)) {
-    mpz_class rest;
-    mpz_remove(rest.get_mpz_t(), n.get_mpz_t(), mpz_class(p).get_mpz_t());
-    return mpz_kronecker_ui(rest.get_mpz_t(), p) < 0;
-  }
-  return mpz_kronecker_ui(n.get_mpz_t(), p) < 0;
-}
-
 }  // namespace
 
 const std::array<std::uint64_t, 64>& signature_primes() {
@@ -63,11 +53,18 @@ std::optional<mpq_class> rational_square_root(const mpq_class& q) {
 
 bool same_square_class(const mpq_class& a, const mpq_class& b) { return sgn(a) == sgn(b) && is_square(a * b); }
 
+bool is_non_residue(const mpz_class& n, std::uint64_t p) {
+  if (mpz_divisible_ui_p(n.get_mpz_t(), p) == 0) return mpz_kronecker_ui(n.get_mpz_t(), p) < 0;
+  mpz_class rest;
+  mpz_remove(rest.get_mpz_t(), n.get_mpz_t(), mpz_class(p).get_mpz_t());
+  return mpz_kronecker_ui(rest.get_mpz_t(), p) < 0;
+}
+
 std::uint64_t square_class_signature(const mpq_class& q) {
   const mpz_class n = q.get_num() * q.get_den();
   const auto& primes = signature_primes();
   std::uint64_t signature = 0;
-  for (std::size_t i = 0; i < primes.size(); ++i) signature |= is_non_residue(n, primes[i]) << i;
+  for (std::size_t i = 0; i < primes.size(); ++i) signature |= std::uint64_t{is_non_residue(n, primes[i])} << i;
   return signature;
 }
 

@@ -76,7 +76,7 @@ bool are_proved_equal(const RootProgram& a, const RootProgram& b) {
   const bool reverse = back.common > forth.common;
   const RootProgram& other = reverse ? backwards : b;
   const Alignment& alignment = reverse ? back : forth;
-  return SpanTest(a, other, alignment, Unknowns::of_steps).proves_equal() || SpanTest(a, other, alignment, Unknowns::of_radicands).proves_equal();
+  return SpanTest(a, other, alignment, Unknowns::of_steps).proves_equal() || SpanTest(a, other, alignment, Unknowns::of_basis).proves_equal();
 }
 
 }  // namespace gvd::robust

@@ -30,10 +30,15 @@ MpfrInterval narrow_interval(const RootSum& x, int bits) {
 RootSum& RootSum::add(const mpq_class& coefficient, const mpq_class& radicand) {
   if (sgn(radicand) < 0) throw std::domain_error("the square root of a negative number is not real");
   if (sgn(radicand) == 0 || sgn(coefficient) == 0) return *this;
-  if (const auto root = rational_square_root(radicand))
+  if (const auto root = rational_square_root(radicand)) {
     constant_ += coefficient * *root;
-  else
-    add_class(coefficient / radicand.get_den(), radicand.get_num() * radicand.get_den(), square_class_signature(radicand));
+    return *this;
+  }
+  // sqrt(n / d) = sqrt(n d) / d; the squares of two in n d, all of them if the radicand came from doubles, are taken out.
+  mpz_class whole = radicand.get_num() * radicand.get_den();
+  const mp_bitcnt_t twos = mpz_scan1(whole.get_mpz_t(), 0) / 2;
+  mpz_tdiv_q_2exp(whole.get_mpz_t(), whole.get_mpz_t(), 2 * twos);
+  add_class(coefficient / radicand.get_den() * power_of_two(static_cast<long>(twos)), whole, square_class_signature(radicand));
   return *this;
 }
 
@@ -79,6 +84,10 @@ RootSum operator*(const RootSum& a, const RootSum& b) {
 }
 
 void RootSum::add_product(const Term& x, const Term& y) {
+  if (x.radicand == y.radicand) {
+    constant_ += x.coefficient * y.coefficient * x.radicand;
+    return;
+  }
   const mpz_class common = gcd(x.radicand, y.radicand);
   const mpz_class radicand = (x.radicand / common) * (y.radicand / common);
   const mpq_class coefficient = x.coefficient * y.coefficient * common;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "root_basis.hpp"
+
 namespace gvd::robust {
 
 // The longest common subsequence of the radicands.
@@ -24,7 +26,7 @@ Alignment aligned(const RootProgram& a, const RootProgram& b) {
   for (std::size_t i = 0, j = 0; i < m || j < n;) {
     if (i < m && j < n && x[i] == y[j])
       result.steps.push_back({static_cast<int>(i++), static_cast<int>(j++)});
-    else if (j == n || (i < m && at(i + 1, j) >= at(i, j + 1)))
+    else if (j == n || (i < m && (at(i + 1, j) > at(i, j + 1) || (at(i + 1, j) == at(i, j + 1) && i * n <= j * m))))  // side by side
       result.steps.push_back({static_cast<int>(i++), AlignedStep::kNone});
     else
       result.steps.push_back({AlignedStep::kNone, static_cast<int>(j++)});
@@ -33,37 +35,65 @@ Alignment aligned(const RootProgram& a, const RootProgram& b) {
 }
 
 SpanTest::SpanTest(const RootProgram& a, const RootProgram& b, const Alignment& alignment, Unknowns unknowns) : a_(a), b_(b) {
-  std::map<mpz_class, std::size_t> of_radicand;
-  std::vector<std::size_t> last_use;
+  RootBasis basis(alignment.steps.size());
   for (const AlignedStep& aligned : alignment.steps) {
-    Step step{};
-    const auto& layer = aligned.a != AlignedStep::kNone ? a.layers()[static_cast<std::size_t>(aligned.a)] : b.layers()[static_cast<std::size_t>(aligned.b)];
-    step.radicand = &layer.radicand;
-    step.in_a = aligned.a != AlignedStep::kNone;
-    step.in_b = aligned.b != AlignedStep::kNone;
-    if (step.in_a) add_entries(step, a.layers()[static_cast<std::size_t>(aligned.a)], 0);
-    if (step.in_b) add_entries(step, b.layers()[static_cast<std::size_t>(aligned.b)], RootProgram::kSize);
-    step.unknown = last_use.size();
-    if (unknowns == Unknowns::of_radicands) step.unknown = of_radicand.try_emplace(layer.radicand, last_use.size()).first->second;
-    step.opens = step.unknown == last_use.size();
-    if (step.opens) last_use.push_back(0);
-    last_use[step.unknown] = steps_.size();
+    Step step = step_of(aligned);
+    const mpz_class& radicand = radicand_of(aligned);
+    if (unknowns == Unknowns::of_steps) {
+      step.unknowns = {steps_.size()};
+      squares_.push_back(radicand);
+    } else {
+      auto [multiple, members] = basis.root(radicand);
+      step.multiple = std::move(multiple);
+      step.unknowns = std::move(members);
+      if (basis.size() > squares_.size()) squares_.push_back(radicand);
+    }
+    if (step.in_a) a_scale_ *= step.multiple.get_den();
+    if (step.in_b) b_scale_ *= step.multiple.get_den();
     steps_.push_back(std::move(step));
   }
-  std::size_t open = 0;
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    Step& step = steps_[i];
-    step.closes = last_use[step.unknown] == i;
-    open += step.opens && !step.closes;
-    open -= !step.opens && step.closes;
-    feasible_ = feasible_ && open <= kMostOpen;
-  }
-  const mpz_class common = gcd(a.denominator(), b.denominator());
-  a_denominator_ = a.denominator() / common;
-  b_denominator_ = b.denominator() / common;
+  find_uses();
+  a_denominator_ = a.denominator() * a_scale_;
+  b_denominator_ = b.denominator() * b_scale_;
+  const mpz_class common = gcd(a_denominator_, b_denominator_);
+  a_denominator_ /= common;
+  b_denominator_ /= common;
 }
 
-void SpanTest::add_entries(Step& step, const RootProgram::Layer& layer, std::size_t offset) const {
+const mpz_class& SpanTest::radicand_of(const AlignedStep& aligned) const {
+  return aligned.a != AlignedStep::kNone ? a_.layers()[static_cast<std::size_t>(aligned.a)].radicand
+                                         : b_.layers()[static_cast<std::size_t>(aligned.b)].radicand;
+}
+
+SpanTest::Step SpanTest::step_of(const AlignedStep& aligned) const {
+  Step step{1, {}, {}, {}, aligned.a != AlignedStep::kNone, aligned.b != AlignedStep::kNone, {}};
+  if (step.in_a) add_entries(step, a_.layers()[static_cast<std::size_t>(aligned.a)], 0);
+  if (step.in_b) add_entries(step, b_.layers()[static_cast<std::size_t>(aligned.b)], RootProgram::kSize);
+  return step;
+}
+
+void SpanTest::find_uses() {
+  constexpr std::size_t kUnused = ~std::size_t{0};
+  std::vector<std::size_t> first(squares_.size(), kUnused), last(squares_.size());
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+    for (const std::size_t u : steps_[i].unknowns) {
+      if (first[u] == kUnused) first[u] = i;
+      last[u] = i;
+    }
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    for (const std::size_t u : steps_[i].unknowns) {
+      if (first[u] == i) steps_[i].opens.push_back(u);
+      if (last[u] == i) steps_[i].closes.push_back(u);
+    }
+    open += steps_[i].opens.size();
+    feasible_ = feasible_ && open <= kMostOpen + 1;
+    open -= steps_[i].closes.size();
+    feasible_ = feasible_ && open <= kMostOpen;
+  }
+}
+
+void SpanTest::add_entries(Step& step, const RootProgram::Layer& layer, std::size_t offset) {
   for (std::size_t i = 0; i < RootProgram::kSize; ++i)
     for (std::size_t j = 0; j < RootProgram::kSize; ++j) {
       const auto row = static_cast<std::uint8_t>(i + offset), column = static_cast<std::uint8_t>(j + offset);
@@ -99,7 +129,8 @@ long magnitude_bits(const RootProgram& program) {
 }  // namespace
 
 long SpanTest::coefficient_bits() const {
-  return std::max(magnitude_bits(a_) + bits_above(b_denominator_), magnitude_bits(b_) + bits_above(a_denominator_)) + 1;
+  return std::max(magnitude_bits(a_) + bits_above(a_scale_) + bits_above(b_denominator_),
+                  magnitude_bits(b_) + bits_above(b_scale_) + bits_above(a_denominator_)) + 1;
 }
 
 /// The test modulo one prime.
@@ -126,65 +157,61 @@ class SpanTest::Run {
   }
 
  private:
-  /// From each state to one with the root, or to two, the coefficients of 1 and of the root.
   void take(const Step& step) {
+    const Word numerator = field_.of(step.multiple.get_num()), denominator = field_.of(step.multiple.get_den());
     residues_.clear();
-    for (const Entry& entry : step.entries) residues_.push_back(field_.of(*entry.value));
-    radicand_ = field_.of(*step.radicand);
+    for (const Entry& entry : step.entries) residues_.push_back(field_.multiply(field_.of(*entry.value), entry.factor ? numerator : denominator));
     const std::size_t old_width = width_;
-    if (step.opens && !step.closes) {
-      open_.push_back(step.unknown);
+    for (const std::size_t u : step.opens) {
+      open_.push_back({u, field_.of(test_.squares_[u])});
       width_ *= 2;
     }
-    const auto place = std::find(open_.begin(), open_.end(), step.unknown);
-    const std::size_t bit = std::size_t{1} << (place - open_.begin());
-    const std::size_t count = states_.size() / old_width, new_width = step.closes && !step.opens ? width_ / 2 : width_;
-    next_.assign(count * (step.closes ? 2 : 1) * new_width, 0);
-    Word* to = next_.data();
-    for (std::size_t i = 0; i < count; ++i, to += (step.closes ? 2 : 1) * new_width) {
-      const Word* state = &states_[i * old_width];
-      if (step.opens && step.closes) {
-        for (std::size_t block = 0; block < width_; block += kBlock) apply(step, state + block, to + block, to + width_ + block);
-      } else {
-        extended_.assign(state, state + old_width);
-        extended_.resize(width_, 0);
-        move_with_root(step, bit);
-        for (std::size_t block = 0; block * kBlock < width_; ++block) {
-          const std::size_t target = step.closes ? without_bit(block, bit) * kBlock + ((block & bit) != 0 ? new_width : 0) : block * kBlock;
-          std::copy_n(&moved_[block * kBlock], kBlock, to + target);
-        }
-      }
-    }
-    if (step.closes && !step.opens) open_.erase(place);
-    width_ = new_width;
+    std::size_t product = 0;  // the number of the block of the step's unknowns
+    for (const std::size_t u : step.unknowns) product |= bit_of(u);
+    next_.assign(states_.size() / old_width * width_, 0);
+    for (std::size_t from = 0, to = 0; from < states_.size(); from += old_width, to += width_)
+      for (std::size_t block = 0; block * kBlock < old_width; ++block) apply(step, product, &states_[from + block * kBlock], block, &next_[to]);
     states_.swap(next_);
-    if (step.closes) reduce_to_basis();
+    for (const std::size_t u : step.closes) close(u);
+    if (!step.closes.empty()) reduce_to_basis();
   }
 
-  /// The number of a block when the root of `bit` is no longer in use.
-  static std::size_t without_bit(std::size_t block, std::size_t bit) { return (block & (bit - 1)) | (block >> 1 & ~(bit - 1)); }
+  std::size_t bit_of(std::size_t unknown) const {
+    const auto place = std::find_if(open_.begin(), open_.end(), [&](const auto& used) { return used.first == unknown; });
+    return std::size_t{1} << (place - open_.begin());
+  }
 
-  /// Adds both parts of the layer times one block. A program that is not in the step stays as it is.
-  void apply(const Step& step, const Word* state, Word* constant, Word* factor) const {
+  /// Adds the layer times one block. A program that is not in the step stays as it is. Unknowns multiply into those of the block; what occurs
+  /// twice is a whole number.
+  void apply(const Step& step, std::size_t product, const Word* state, std::size_t block, Word* result) const {
+    Word* const constant = result + block * kBlock;
+    std::array<Word, kBlock> factor{};
     for (std::size_t i = 0; i < kBlock; ++i)
       if (!(i < RootProgram::kSize ? step.in_a : step.in_b)) constant[i] = field_.add(constant[i], state[i]);
     for (std::size_t e = 0; e < step.entries.size(); ++e) {
       const Entry& entry = step.entries[e];
-      Word& to = (entry.factor ? factor : constant)[entry.row];
+      Word& to = entry.factor ? factor[entry.row] : constant[entry.row];
       to = field_.add(to, field_.multiply(residues_[e], state[entry.column]));
     }
+    Word* const to = result + (block ^ product) * kBlock;
+    for (std::size_t k = 0; k < open_.size(); ++k)
+      if ((block & product & std::size_t{1} << k) != 0)
+        for (Word& x : factor) x = field_.multiply(x, open_[k].second);
+    for (std::size_t i = 0; i < kBlock; ++i) to[i] = field_.add(to[i], factor[i]);
   }
 
-  /// From extended_ to moved_. The root multiplies into the products of roots: its square is the radicand.
-  void move_with_root(const Step& step, std::size_t bit) {
-    moved_.assign(width_, 0);
-    for (std::size_t block = 0; block * kBlock < width_; ++block) {
-      std::array<Word, kBlock> factor{};
-      apply(step, &extended_[block * kBlock], &moved_[block * kBlock], factor.data());
-      Word* to = &moved_[(block ^ bit) * kBlock];
-      for (std::size_t i = 0; i < kBlock; ++i)
-        to[i] = field_.add(to[i], (block & bit) != 0 ? field_.multiply(radicand_, factor[i]) : factor[i]);
-    }
+  /// An unknown that is not used again: what is with it and what is without vanish each by itself, as two states.
+  void close(std::size_t unknown) {
+    const std::size_t bit = bit_of(unknown), half = width_ / 2;
+    next_.resize(states_.size());
+    for (std::size_t from = 0; from < states_.size(); from += width_)
+      for (std::size_t block = 0; block * kBlock < width_; ++block) {
+        const std::size_t rest = (block & (bit - 1)) | (block >> 1 & ~(bit - 1));
+        std::copy_n(&states_[from + block * kBlock], kBlock, &next_[from + ((block & bit) != 0 ? half : 0) + rest * kBlock]);
+      }
+    states_.swap(next_);
+    std::erase_if(open_, [&](const auto& used) { return used.first == unknown; });
+    width_ = half;
   }
 
   /// Of the span of the states, by elimination without division.
@@ -211,10 +238,9 @@ class SpanTest::Run {
   const SpanTest& test_;
   PrimeField field_;
   std::size_t width_ = kBlock;  // of a state
-  std::vector<Word> states_, next_, extended_, moved_;
-  std::vector<std::size_t> open_;  // unknowns in use; that of bit k of the number of a block is the k-th
-  std::vector<Word> residues_;     // of the entries of a step
-  Word radicand_ = 0;
+  std::vector<Word> states_, next_;
+  std::vector<std::pair<std::size_t, Word>> open_;  // unknowns in use, with their squares; bit k of the number of a block stands for the k-th
+  std::vector<Word> residues_;                      // of the entries of a step
   std::vector<std::size_t> pivots_;
 };
 

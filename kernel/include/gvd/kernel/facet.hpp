@@ -60,7 +60,7 @@ class FacetWaves {
   virtual const predicates::Site<DD>& site(std::size_t i, DD) = 0;
   virtual const predicates::FacetFrame<M>& frame(M, int bits) = 0;
   virtual const predicates::Site<M>& site(std::size_t i, M, int bits) = 0;
-  /// Empty if the strips of the sites and the facet are not all of one square class, or the weights are too involved.
+  /// Null if there are no exact numbers at all. A site whose strip crosses too many square classes has undefined ones.
   virtual const predicates::FacetFrame<robust::Exact>* exact_frame() = 0;
   virtual const predicates::Site<robust::Exact>* exact_site(std::size_t i) = 0;
   /// Whether the exact numbers cost less than MPFR's: the faces are all of one square class.

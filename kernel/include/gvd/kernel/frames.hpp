@@ -4,7 +4,6 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <unordered_map>
 #include <vector>
 
 #include "gvd/kernel/mesh.hpp"
@@ -13,6 +12,7 @@
 #include "gvd/robust/gmp.hpp"
 #include "gvd/robust/mpfr_float.hpp"
 #include "gvd/robust/root_sum.hpp"
+#include "gvd/robust/square_classes.hpp"
 
 namespace gvd::kernel {
 
@@ -66,13 +66,9 @@ class Frames {
   mutable std::unique_ptr<RootSlot[]> roots_;
   struct Classes {
     std::mutex mutex;
+    robust::SquareClasses list;
     std::vector<std::uint32_t> of_face;
-    std::vector<mpq_class> representative;
-    std::vector<robust::RootSum> root;  // of the representative
-    std::unordered_multimap<std::uint64_t, std::uint32_t> by_signature;
   };
-  robust::RootSum doubled_area(FaceId f, const mpq_class& radicand) const;
-  std::uint32_t class_of(FaceId f, const mpq_class& radicand) const;
   mutable Classes classes_;
 };
 

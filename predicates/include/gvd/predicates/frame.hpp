@@ -32,6 +32,14 @@ inline Complex<NT> cross_right(const Complex<NT>& z, const EdgeFrame<NT>& next) 
   return {NT(1.0) - (x * next.u + z.y * next.y), z.y * next.u - x * next.y};
 }
 
+/// The way back, into the frame of a -> b with apex w: from that of a -> c (left) z w, from that of c -> b 1 - (1 - z) (1 - w).
+template <class NT>
+inline Complex<NT> cross_back(const Complex<NT>& z, const EdgeFrame<NT>& frame, bool left) {
+  if (left) return {z.x * frame.u - z.y * frame.y, z.x * frame.y + z.y * frame.u};
+  const NT x = NT(1.0) - z.x;
+  return {NT(1.0) - (x * frame.v - z.y * frame.y), x * frame.y + z.y * frame.v};
+}
+
 /// The apex of a -> b seen from the neighbour's frame b -> a: 1 - w.
 template <class NT>
 inline Complex<NT> apex_from_behind(const EdgeFrame<NT>& frame) {

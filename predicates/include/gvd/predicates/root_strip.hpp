@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "gvd/predicates/face_frames.hpp"
 #include "gvd/predicates/strip.hpp"
 #include "gvd/robust/root_sum.hpp"
@@ -28,16 +26,5 @@ inline bool is_short(const RootPoint& z) { return z.x.terms().size() <= kMostTer
 RootUnfolding first_unfolding(const EdgeFrame<robust::RootSum>& frame);
 /// Takes the window over the side of a step.
 void take_step(RootUnfolding& at, const StripStep& step, const EdgeFrame<robust::RootSum>& side);
-
-/// Unfolds a strip; `frame(h)` gives the frame of each half-edge of it. Empty if the sums grow too long.
-template <class FrameOf>
-std::optional<RootUnfolding> unfold_roots(const Strip& strip, FrameOf&& frame) {
-  RootUnfolding at = first_unfolding(frame(strip.opposite));
-  for (const StripStep& step : strip.steps) {
-    take_step(at, step, frame(step.side));
-    if (!is_short(at.image)) return std::nullopt;
-  }
-  return at;
-}
 
 }  // namespace gvd::predicates

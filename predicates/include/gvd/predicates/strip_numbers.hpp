@@ -5,10 +5,11 @@
 #include <utility>
 
 #include "gvd/predicates/enclosed_frame.hpp"
-#include "gvd/predicates/rational_strip.hpp"
+#include "gvd/predicates/root_strip.hpp"
+#include "gvd/robust/exact.hpp"
 
-/// Points carried along a strip in both directions, in error discs of any number type or as rationals over one root: two classes with the
-/// same members, so that one formula serves all.
+/// Points carried along a strip in both directions, in error discs of any number type or in exact numbers: two classes with the same members,
+/// so that one formula serves all.
 namespace gvd::predicates {
 
 /// In discs; Ball<T> is the number of a parameter. `frame(h)` gives the EdgeFrame<T> of a half-edge.
@@ -34,17 +35,11 @@ class DiscNumbers {
     return {{x.mid(), y.mid()}, (x.rad() + y.rad()) * (1 + 0x1p-40)};
   }
   Point cross(const Point& z, std::uint32_t side, bool left) { return predicates::cross(z, frame_(side), left, unit_); }
-  /// Back into the frame of h, from that of its neighbour over prev(h) (left) or next(h): z w, or 1 - (1 - z)(1 - w) with the apex
-  /// w of h. The error is bounded as that of predicates::cross, which is of the same form.
+  /// Back into the frame of h, from that of its neighbour over prev(h) (left) or next(h). The error is bounded as that of
+  /// predicates::cross, which is of the same form.
   Point cross_back(const Point& z, std::uint32_t h, bool left) {
     const EdgeFrame<T>& f = frame_(h);
-    Point result;
-    if (left) {
-      result.mid = {z.mid.x * f.u - z.mid.y * f.y, z.mid.x * f.y + z.mid.y * f.u};
-    } else {
-      const T x = T(1.0) - z.mid.x;
-      result.mid = {T(1.0) - (x * f.v - z.mid.y * f.y), x * f.y + z.mid.y * f.v};
-    }
+    Point result{predicates::cross_back(z.mid, f, left), 0};
     const double turn = length_bound(rough(left ? f.u : f.v), rough(f.y));
     const double size = (rough_size(z.mid) + 1 + z.radius) * turn + rough_size(result.mid) + 1;
     result.radius = (z.radius * turn + kUnfoldingStep * unit_ * size) * (1 + 0x1p-40) + 0x1p-1000;
@@ -68,40 +63,41 @@ DiscNumbers<T, FrameOf> disc_numbers(FrameOf frame, int bits = 0) {
   return {std::move(frame), bits};
 }
 
-/// In rationals over a common root. `frame(h)` gives the RationalFrame of a half-edge over sqrt(radicand).
+/// In sums of roots. `frame(h)` gives the EdgeFrame<RootSum> of a half-edge, whose length is not used. A point whose coordinates would be too
+/// long sums is left out, and with it all that follows: then nothing is known any more.
 template <class FrameOf>
-class RationalNumbers {
+class RootNumbers {
  public:
-  using Point = QuadraticPoint;
-  using Number = mpq_class;
+  using Point = RootPoint;
+  using Number = robust::Exact;
 
-  RationalNumbers(FrameOf frame, mpq_class radicand) : frame_(std::move(frame)), radicand_(std::move(radicand)) {}
+  explicit RootNumbers(FrameOf frame) : frame_(std::move(frame)) {}
 
-  Number number(const mpq_class& q) const { return q; }
-  Point root(std::uint32_t h) const {
-    const RationalFrame& f = frame_(h);
-    return {f.v, -f.y};
-  }
+  /// Whether all points so far are what they should be.
+  bool is_known() const noexcept { return known_; }
+  Number number(const mpq_class& q) const { return Number(q); }
+  Point root(std::uint32_t h) const { return apex_from_behind(frame_(h)); }
   Point in_face(std::uint32_t h, const mpq_class& b1, const mpq_class& b2) const {
-    const RationalFrame& f = frame_(h);
-    return {b1 + b2 * f.u, b2 * f.y};
+    const EdgeFrame<robust::RootSum>& f = frame_(h);
+    return {robust::RootSum(b1) + b2 * f.u, b2 * f.y};
   }
-  Point cross(const Point& z, std::uint32_t side, bool left) const { return turn(z, frame_(side), left, radicand_); }
-  Point cross_back(const Point& z, std::uint32_t h, bool left) const {
-    const RationalFrame& f = frame_(h);
-    if (left) return {z.x * f.u - z.y * f.y * radicand_, z.x * f.y + z.y * f.u};
-    const mpq_class x = 1 - z.x;
-    return {1 - (x * f.v - z.y * f.y * radicand_), x * f.y + z.y * f.v};
-  }
+  Point cross(const Point& z, std::uint32_t side, bool left) { return kept(predicates::cross(z, frame_(side), left)); }
+  Point cross_back(const Point& z, std::uint32_t h, bool left) { return kept(predicates::cross_back(z, frame_(h), left)); }
+  /// Undefined if not known.
   Number meet(const Point& below, const Point& above) const {
-    return below.x - (above.x - below.x) * below.y / (above.y - below.y);
+    if (!known_) return Number::undefined();
+    return Number(below.x) - Number(above.x - below.x) * (Number(below.y) / Number(above.y - below.y));
   }
-  /// The second one over sqrt(radicand).
-  PlanePoint<Number> coordinates(const Point& z) const { return {z.x, z.y}; }
+  PlanePoint<robust::RootSum> coordinates(const Point& z) const { return {z.x, z.y}; }
 
  private:
+  Point kept(Point z) {
+    known_ = known_ && is_short(z);
+    return known_ ? std::move(z) : Point{};
+  }
+
   FrameOf frame_;
-  mpq_class radicand_;
+  bool known_ = true;
 };
 
 }  // namespace gvd::predicates

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gvd/predicates/face_strip.hpp"
-#include "gvd/robust/root_sum.hpp"
+#include "gvd/robust/exact.hpp"
 
 /// Lengths of paths that are straight through strips of faces. Units: those of the caller's coordinates.
 namespace gvd::predicates {
@@ -29,7 +29,8 @@ struct Path {
 
 /// The sign of length(a) - length(b). Zero is proved equality. Laws: swapping negates; legs that both have count for nothing (identity);
 /// invariant under a common similarity by a power of two.
-/// The algebra stage decides if the faces of each leg are of one square class (each leg may have its own). Cost: O(crossings) a stage.
+/// The algebra stage cancels legs that are equal: through few independent square classes by sums of roots, through any number by the span test
+/// (docs/exactness.md); what is left it decides if that crosses few. Cost: O(crossings) a numeric stage, O(crossings^2) the span test.
 Decision compare_lengths(const Path& a, const Path& b);
 robust::MaybeSign compare_lengths_at(const Rung& rung, const Path& a, const Path& b);
 
@@ -47,7 +48,8 @@ struct RoundedLength {
 };
 RoundedLength rounded_length(const Path& path);
 
-/// The length as a sum of roots of rationals; empty unless each leg's faces are of one square class.
-std::optional<robust::RootSum> exact_length(const Path& path);
+/// The length as an exact number; empty if a leg crosses more than six independent square classes (or its coordinates have more than
+/// kMostTerms roots).
+std::optional<robust::Exact> exact_length(const Path& path);
 
 }  // namespace gvd::predicates

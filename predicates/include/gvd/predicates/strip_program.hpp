@@ -23,8 +23,10 @@ class StripProgram {
   void cross(const ProgramFace& face, std::size_t k, bool left);
   /// A multiple of |z|^2, x, y and 1, added up.
   robust::RootProgram value(const std::array<long, 4>& functional) const;
-  /// The squared distance from the root to the apex of side k of the face entered over it, in the units of the faces.
-  robust::RootProgram squared_distance_to_apex(const ProgramFace& face, std::size_t k) const;
+  /// The squared distance from the root to a point of the face entered over side k: b1 times the target of that side plus b2 times its apex. In
+  /// the units of that face; each face may have its own.
+  robust::RootProgram squared_distance(const ProgramFace& face, std::size_t k, const mpq_class& b1, const mpq_class& b2) const;
+  robust::RootProgram squared_distance_to_apex(const ProgramFace& face, std::size_t k) const { return squared_distance(face, k, 0, 1); }
 
  private:
   robust::RootProgram program_;

@@ -29,6 +29,7 @@ class Exact {
   explicit Exact(const mpq_class& q);
   explicit Exact(RootSum sum);
   static Exact exact(double x) { return Exact(x); }
+  static Exact undefined() { return Exact(std::shared_ptr<const Node>()); }
 
   friend Exact operator-(const Exact& a);
   friend Exact operator+(const Exact& a, const Exact& b);

@@ -26,6 +26,9 @@ bool is_square(const mpq_class& q);
 /// Whether a and b differ by the square of a non-zero rational, that is sqrt(a) / sqrt(b) is rational. Pre: neither is zero.
 bool same_square_class(const mpq_class& a, const mpq_class& b);
 
+/// Whether n, with all factors p taken out, is no square modulo p. Pre: p is an odd prime; n is not zero.
+bool is_non_residue(const mpz_class& n, std::uint64_t p);
+
 /// Bit i is the Legendre symbol, modulo the i-th of 64 fixed primes p below 2^62, of q with all factors p taken out (1 for a
 /// non-residue). Taking the factors out makes it a homomorphism of the non-zero rationals modulo squares, with no exceptions:
 /// signature(a b) = signature(a) xor signature(b), signature(square) = 0. So different signatures prove different classes; equal

@@ -41,6 +41,7 @@ class RootSum {
   friend RootSum operator-(RootSum a) { return a *= -1; }
   /// Cost: as many products as the numbers of terms multiply to, each merged into its class.
   friend RootSum operator*(const RootSum& a, const RootSum& b);
+  friend RootSum square(const RootSum& a) { return a * a; }
 
   const mpq_class& constant() const noexcept { return constant_; }
   const std::vector<Term>& terms() const noexcept { return terms_; }
