@@ -56,6 +56,7 @@ class EdgeComparison {
  public:
   EdgeComparison(Site<NT> a, Site<NT> b, bool same_weight) : a_(std::move(a)), b_(std::move(b)), same_weight_(same_weight) {
     line_ = {{NT(0.0), NT(0.0)}, {NT(1.0), NT(0.0)}, NT(1.0)};
+    if (same_weight) a_.weight = b_.weight = NT(0.0);
   }
 
   std::optional<EdgeTies> run() const {
@@ -169,12 +170,35 @@ class EdgeComparison {
   SideLine<NT> line_;
 };
 
+/// Coordinates of an image in the frame of an edge, as seen from beyond it.
+struct ProgramOnEdge {
+  StripProgram image;
+  bool along;  ///< the frame starts at the first end of the edge
+  robust::RootProgram x() const { return along ? image.value({0, 1, 0, 0}) : image.value({0, -1, 0, 1}); }
+  robust::RootProgram y() const { return image.value({0, 0, 1, 0}); }
+};
+/// Pre: the strip crosses an edge.
+ProgramOnEdge program_on_edge(const StripAccess& at, const std::array<std::uint8_t, 2>& place, robust::SquareClasses& classes) {
+  ProgramOnEdge result{program_of(at, classes), true};
+  const std::size_t side = side_between(place[0], place[1]);
+  if (side != 0) result.image.cross(at.last().for_program(classes), side, side == 2);
+  result.along = place[0] == (side == 1 ? 2 : 0);  // over side 1 (from 1 to 2) the frame starts at 2, otherwise at 0
+  return result;
+}
+/// Whether the images are one, or mirror images in the edge, by the span test; false says nothing.
+bool are_proved_alike(const FaceStrip& a, const std::array<std::uint8_t, 2>& place_a, const FaceStrip& b, const std::array<std::uint8_t, 2>& place_b) {
+  if (a.crossings() == 0 || b.crossings() == 0) return false;
+  robust::SquareClasses classes;
+  const ProgramOnEdge first = program_on_edge(StripAccess(a), place_a, classes), second = program_on_edge(StripAccess(b), place_b, classes);
+  return are_proved_equal(first.x(), second.x()) && are_proved_equal(first.y(), second.y());
+}
+
 }  // namespace
 
 std::optional<EdgeTies> ties_on_edge_at(const Rung& rung, const Window& a, const Window& b, const std::array<SpacePoint, 2>& edge) {
   const auto place_a = places_of(a.strip, edge), place_b = places_of(b.strip, edge);
   side_between(place_a[0], place_a[1]);
-  const bool same_weight = a.weight == b.weight;
+  const bool same_weight = have_equal_weights(rung, a, b);
   std::optional<EdgeTies> result;
   if (rung.stage == robust::Stage::identity) {
     if (same_weight && a.strip == b.strip) result.emplace().kind = Kind::everywhere;
@@ -184,6 +208,8 @@ std::optional<EdgeTies> ties_on_edge_at(const Rung& rung, const Window& a, const
       const WindowNumbers<NT> na(a, bits), nb(b, bits);
       return EdgeComparison<NT>(seen_from_edge(na, place_a), seen_from_edge(nb, place_b), same_weight).run();
     });
+    if (!result && rung.stage == robust::Stage::algebra && same_weight && are_proved_alike(a.strip, place_a, b.strip, place_b))
+      result.emplace().kind = Kind::everywhere;
   }
   if (result) result->stage = rung.stage;
   return result;

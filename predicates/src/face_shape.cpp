@@ -100,4 +100,16 @@ const std::array<EdgeFrame<robust::RootSum>, 3>& FaceShape::in_roots() const {
   return roots_;
 }
 
+ProgramFace FaceShape::for_program(robust::SquareClasses& classes) const {
+  ProgramFace result{exact(), {}};
+  const mpq_class unit = robust::power_of_two(2 * exponent_);
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.face.dot[k] *= unit;
+    result.face.squared[k] *= unit;
+  }
+  result.face.radicand *= unit * unit;
+  result.doubled_area = classes.root(result.face.radicand);
+  return result;
+}
+
 }  // namespace gvd::predicates

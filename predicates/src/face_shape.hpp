@@ -6,6 +6,8 @@
 #include "gvd/predicates/face_frames.hpp"
 #include "gvd/predicates/face_strip.hpp"
 #include "gvd/predicates/root_strip.hpp"
+#include "gvd/predicates/strip_program.hpp"
+#include "gvd/robust/square_classes.hpp"
 
 namespace gvd::predicates {
 
@@ -35,6 +37,8 @@ class FaceShape {
   const ExactFace& exact() const;
   /// Without the lengths.
   const std::array<EdgeFrame<robust::RootSum>, 3>& in_roots() const;
+  /// In the caller's units, its root over the integer of its class. Not kept.
+  ProgramFace for_program(robust::SquareClasses& classes) const;
 
  private:
   void prepare();

@@ -86,6 +86,12 @@ std::array<std::uint8_t, n> places_of(const FaceStrip& strip, const std::array<S
 /// The side between two places: 0 entry, 1 target to apex, 2 apex to origin. Throws std::invalid_argument if they are one.
 std::size_t side_between(std::uint8_t a, std::uint8_t b);
 
+/// By identity; at the algebra stage also by proof.
+inline bool have_equal_weights(const Rung& rung, const Window& a, const Window& b) {
+  if (a.weight == b.weight) return true;
+  return rung.stage == robust::Stage::algebra && compare_lengths_at(rung, a.weight, b.weight) == robust::Sign::zero;
+}
+
 /// The stage of a rung for windows: test.template operator()<NT>(bits), NT = Ball<T> or Exact.
 template <class Answer, class Test>
 std::optional<Answer> window_stage(const Rung& rung, std::span<const Window* const> windows, const Test& test) {

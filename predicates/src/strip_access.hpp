@@ -109,6 +109,11 @@ auto with_roots(const StripAccess& at, const Visit& visit) {
   return result;
 }
 
+/// The image as a program, however many classes the strip crosses. Pre: it crosses an edge.
+inline StripProgram program_of(const StripAccess& at, robust::SquareClasses& classes) {
+  return strip_program(at.steps(), [&](std::uint32_t h) { return at.face(h / 3).for_program(classes); });
+}
+
 /// Runs the numeric stage of a rung: test.template operator()<T>(bits), T = double, DoubleDouble or Mpfr. Empty for the others, and if
 /// the strips involved are out of the range of the first two.
 template <class Answer, class Test>

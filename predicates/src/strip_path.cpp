@@ -1,9 +1,7 @@
 #include "gvd/predicates/strip_path.hpp"
 
 #include "gvd/predicates/compare_legs.hpp"
-#include "gvd/predicates/strip_program.hpp"
 #include "gvd/robust/rounding.hpp"
-#include "gvd/robust/square_classes.hpp"
 #include "path_numbers.hpp"
 
 namespace gvd::predicates {
@@ -54,25 +52,11 @@ std::vector<ExactLeg> exact_legs(const Path& path) {
   return legs;
 }
 
-/// In the caller's units.
-ProgramFace program_face(const FaceShape& shape, SquareClasses& classes) {
-  ProgramFace result{shape.exact(), {}};
-  const mpq_class unit = robust::power_of_two(2 * shape.exponent());
-  for (std::size_t k = 0; k < 3; ++k) {
-    result.face.dot[k] *= unit;
-    result.face.squared[k] *= unit;
-  }
-  result.face.radicand *= unit * unit;
-  result.doubled_area = classes.root(result.face.radicand);
-  return result;
-}
-
 /// Pre: the leg crosses an edge.
 robust::RootProgram squared_length_program(const Leg& leg, SquareClasses& classes) {
   const StripAccess at(leg.strip);
-  const auto face = [&](std::uint32_t h) { return program_face(at.face(h / 3), classes); };
   const std::array<mpq_class, 3> b = at.placed(leg.end);
-  return strip_program(at.steps(), face).squared_distance(face(at.last_halfedge()), 0, b[1], b[2]);
+  return program_of(at, classes).squared_distance(at.last().for_program(classes), 0, b[1], b[2]);
 }
 
 /// By sums of roots where both have one, otherwise by the span test. A leg within one face always has one.

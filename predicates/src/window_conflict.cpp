@@ -74,13 +74,13 @@ std::optional<Conflict> conflict_in(const std::array<Site<NT>, 4>& site, const s
 std::optional<Conflict> conflict_at(const Rung& rung, const FaceCorners& facet, const std::array<const Window*, 3>& ijk, const Window& rival) {
   // The pivot is the middle one; a pivot whose weight another shares makes a simpler formula.
   std::array<const Window*, 4> w{ijk[0], ijk[1], ijk[2], &rival};
-  const auto shares = [&](std::size_t i) { return w[i]->weight == w[(i + 1) % 3]->weight || w[i]->weight == w[(i + 2) % 3]->weight; };
+  const auto shares = [&](std::size_t i) { return have_equal_weights(rung, *w[i], *w[(i + 1) % 3]) || have_equal_weights(rung, *w[i], *w[(i + 2) % 3]); };
   if (!shares(1) && shares(0)) w = {w[1], w[2], w[0], w[3]};
   std::array<std::array<std::uint8_t, 3>, 4> place;
   std::array<bool, 4> pivot_weight;
   for (std::size_t i = 0; i < 4; ++i) {
     place[i] = places_of(w[i]->strip, facet);
-    pivot_weight[i] = w[i]->weight == w[1]->weight;
+    pivot_weight[i] = have_equal_weights(rung, *w[i], *w[1]);
     if (w[i]->cone)
       for (const std::size_t v : *w[i]->cone) StripAccess(w[i]->strip).require_vertex(v);
   }

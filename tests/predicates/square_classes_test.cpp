@@ -229,6 +229,38 @@ TEST(SquareClasses, MirrorImagesTieAlongAnEdge) {
   EXPECT_GT(of_classes[3], 3);
 }
 
+// Through many classes, by the span test: an image seen from either side of an edge, or by a strip and its mirror image. The weights, too, are
+// equal by proof only.
+TEST(SquareClasses, ImagesThroughManyClassesTieAlongAnEdge) {
+  Random random(39);
+  const auto corner = [&] { return double_corner(random); };
+  for (int round = 0; round < 6; ++round) {
+    const SpaceStrip strip = space_strip(9, random, corner), way = space_strip(9, random, corner);
+    const FacePoint end = FacePoint::corner(2);
+    const Window a{strip.described(), {0, {way.leg_to(end)}}, std::nullopt};
+    const Path weight{0, {way.back_from(end)}};
+    const Window mirrored{strip.mirrored().described(), weight, std::nullopt};
+    const auto& last = strip.faces.back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const EdgeTies all = ties_on_edge(a, mirrored, {last[k], last[(k + 1) % 3]});
+      ASSERT_EQ(all.kind, EdgeTies::Kind::everywhere) << round << " " << k;
+      ASSERT_EQ(all.stage, Stage::algebra);
+    }
+    SpaceStrip shorter = strip;
+    shorter.faces.pop_back();
+    Window before{shorter.described(), weight, std::nullopt};
+    ASSERT_EQ(ties_on_edge(a, before, {last[0], last[1]}).kind, EdgeTies::Kind::everywhere) << round;
+    ASSERT_EQ(ties_on_edge(before, a, {last[1], last[0]}).kind, EdgeTies::Kind::everywhere) << round;
+    before.weight.given = robust::power_of_two(-300);
+    ASSERT_TRUE(ties_on_edge(a, before, {last[0], last[1]}).a_is_nearer) << round;
+    // A corner on the way moved by an ulp: another image, and no proof.
+    SpaceStrip moved = strip;
+    moved.faces[0][2][0] = std::nextafter(moved.faces[0][2][0], 9);
+    const Window other{moved.described(), weight, std::nullopt};
+    ASSERT_NE(ties_on_edge(a, other, {last[0], last[1]}).kind, EdgeTies::Kind::everywhere) << round;
+  }
+}
+
 // Each starts later by the other's way to the first end of the edge: so they tie there.
 TEST(SquareClasses, WeightsOfSeveralClassesTieAtAVertex) {
   Random random(36);

@@ -48,8 +48,8 @@ struct RoundedLength {
 };
 RoundedLength rounded_length(const Path& path);
 
-/// The length as an exact number; empty if a leg crosses more than six independent square classes (or its coordinates have more than
-/// kMostTerms roots).
+/// The length as an exact number; empty if a coordinate of a leg has more than kMostTerms roots (root_strip.hpp; five independent square
+/// classes never have).
 std::optional<robust::Exact> exact_length(const Path& path);
 
 }  // namespace gvd::predicates
