@@ -355,14 +355,16 @@ class EulerCount {
     for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
       const Dart& dart = s_.darts[d];
       if (dart.twin != kNone && dart.twin < d) continue;
-      labels_.assign({dart.labels, dart.twin == kNone ? dart.labels : s_.darts[dart.twin].labels});
-      add(labels_, -1);
+      const LabelSetId beyond = dart.twin == kNone ? dart.labels : s_.darts[dart.twin].labels;
+      labels_.assign({dart.labels, beyond});
+      dart.labels == beyond ? add_inside(beyond, -1) : add(labels_, -1);
     }
   }
 
   void count_vertices() {
-    std::vector<std::vector<LabelSetId>> around(s_.places.size());
-    for (const Dart& dart : s_.darts) around[dart.from].push_back(dart.labels);
+    std::vector<std::pair<std::uint32_t, LabelSetId>> around;  // place, label set beside it
+    around.reserve(s_.darts.size() + s_.places.size());
+    for (const Dart& dart : s_.darts) around.push_back({dart.from, dart.labels});
     for (VertexId v = 0; v < in_.refined.vertex_count(); ++v) {
       if (in_.refined.is_isolated(v)) continue;
       const std::uint32_t place = s_.vertex_place[v];
@@ -371,10 +373,28 @@ class EulerCount {
         continue;
       }
       in_.refined.for_each_outgoing(v, [&](HalfedgeId h) {
-        if (is_plain(Mesh::face(h))) around[place].push_back(in_.face_labels[Mesh::face(h)]);
+        if (is_plain(Mesh::face(h))) around.push_back({place, in_.face_labels[Mesh::face(h)]});
       });
     }
-    for (auto& labels : around) add(labels, 1);
+    add_places(around);
+  }
+
+  void add_places(const std::vector<std::pair<std::uint32_t, LabelSetId>>& around) {
+    std::vector<std::uint32_t> start(s_.places.size() + 1, 0);
+    for (const auto& [place, labels] : around) ++start[place + 1];
+    for (std::size_t p = 0; p < s_.places.size(); ++p) start[p + 1] += start[p];
+    std::vector<LabelSetId> sorted(around.size());
+    std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
+    for (const auto& [place, labels] : around) sorted[fill[place]++] = labels;
+    for (std::size_t p = 0; p < s_.places.size(); ++p) {
+      const auto begin = sorted.begin() + start[p], end = sorted.begin() + start[p + 1];
+      if (begin != end && std::all_of(begin, end, [&](LabelSetId labels) { return labels == *begin; })) {
+        add_inside(*begin, 1);
+        continue;
+      }
+      labels_.assign(begin, end);
+      add(labels_, 1);
+    }
   }
 
   const DiagramInput& in_;

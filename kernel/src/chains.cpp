@@ -87,6 +87,10 @@ class Tracer {
   }
 
   std::size_t label_sets_around(std::uint32_t p) const {
+    if (const auto ends = s_.ends_at(p); ends.size() == 2) {
+      const auto &a = s_.links[ends[0].link].labels, &b = s_.links[ends[1].link].labels;
+      if (a == b || (a[0] == b[1] && a[1] == b[0])) return 2;
+    }
     std::vector<LabelSetId> around;
     for (const LinkEnd& end : s_.ends_at(p))
       for (const LabelSetId labels : s_.links[end.link].labels) around.push_back(labels);

@@ -165,6 +165,10 @@ void Contenders::share_eclipses(FacetLadder& ladder) {
       }
     }
   }
+  related_.assign(n * n, 0);
+  for (std::size_t p = 0; p < n; ++p)
+    for (std::size_t r = 0; r < n; ++r)
+      if (tangent_[p * n + r] != kNotTangent || eclipsed_[p * n + r] != 0) related_[p * n + r] = related_[r * n + p] = 1;
 }
 
 /// Asked only where doubles cannot exclude it: the difference of the weights must be the distance of the images. By identity if the

@@ -61,6 +61,8 @@ class Contenders {
   /// Whether `relay` is, by identity, nowhere nearer than `wave`, cones aside: the path to the relay goes through `wave`'s strip, so its weight is
   /// that of `wave` plus the distance of the images, and their bisector is the ray beyond the relay. (Tangent pairs are of this kind.)
   bool eclipses(std::size_t wave, std::size_t relay) const { return eclipsed_[wave * list_.size() + relay] != 0; }
+  /// Whether either of the two eclipses the other one, or is tangent to it.
+  bool related(std::size_t a, std::size_t b) const { return related_[a * list_.size() + b] != 0; }
   /// Whether the two tie along a side because their images are mirror images in it: positive if i comes in over that side, negative if j does, zero
   /// if nothing of the kind is proved.
   robust::Sign mirrored(std::size_t i, std::size_t j, std::size_t side) const;
@@ -97,7 +99,7 @@ class Contenders {
   mutable std::map<std::array<std::size_t, 3>, bool> runs_along_;  ///< asked for: i, end of its cone, side
   std::vector<std::uint32_t> representative_;
   std::vector<signed char> tangent_;
-  std::vector<std::uint8_t> eclipsed_;
+  std::vector<std::uint8_t> eclipsed_, related_;
 };
 
 }  // namespace gvd::kernel

@@ -63,11 +63,13 @@ Stage climb(const HasExact& has_exact, const Attempt& attempt) {
 template <class NT>
 struct FacetSpace {
   FacetSpace(const DiagramInput& in, const Skeleton& facet, int bits)
-      : map(in.input, in.refined, facet.face, frame_in<NT>(*facet.waves, bits).apex, bits) {
+      : map(in.input, in.refined, facet.face, frame_in<NT>(*facet.waves, bits).apex, bits),
+        numbers(numbers_without_waves<NT>(*facet.waves, bits)) {
     for (std::uint32_t k = 0; k < 3; ++k) corner[k] = position_in<NT>(in.refined, in.refined.origin(3 * facet.face + k), bits);
   }
   FaceMap<NT> map;
   std::array<std::array<NT, 3>, 3> corner;
+  FacetNumbers<NT> numbers;
 };
 
 /// Those in double-double are kept for the next point or arc of the same facet.
@@ -82,7 +84,8 @@ class FacetSpaces {
       facet_ = facet;
       return use(*last_);
     } else {
-      return use(FacetSpace<NT>(in_, s_.facets[facet], bits));
+      FacetSpace<NT> space(in_, s_.facets[facet], bits);
+      return use(space);
     }
   }
 
@@ -111,24 +114,25 @@ class PointBuilder {
       return facet_has_exact(*facet.waves, {node.defining[0], node.defining[1], node.defining[2], node.ray});
     };
     return climb(has_exact, [&]<class NT>(const NT&, int bits) {
-      return spaces.with<NT>(place.facet, bits, [&](const FacetSpace<NT>& space) { return accept(numbers(space, place, facet, bits), point); });
+      return spaces.with<NT>(place.facet, bits, [&](FacetSpace<NT>& space) { return accept(numbers(space, place, facet, bits), point); });
     });
   }
 
  private:
   template <class NT>
-  static PointNumbers<NT> numbers(const FacetSpace<NT>& space, const Place& place, const Skeleton& facet, int bits) {
-    const auto& [map, corner] = space;
+  static PointNumbers<NT> numbers(FacetSpace<NT>& space, const Place& place, const Skeleton& facet, int bits) {
+    auto& [map, corner, waves] = space;
     PointNumbers<NT> result;
     const auto& node = facet.tessellation->nodes[place.node];
+    add_waves(*facet.waves, node, bits, waves);
     if (node.kind == FacetTessellation::Node::Kind::side) {  // two corners only: what they have in common stays exact
-      const NT t = side_parameter<NT>(*facet.waves, *facet.tessellation, place.node, bits);
+      const NT t = node_parameter(*facet.waves, waves, node);
       const auto &a = corner[node.where], &b = corner[(node.where + 1) % 3];
       for (std::size_t i = 0; i < 3; ++i) result.position[i] = a[i] + t * (b[i] - a[i]);
       result.frame = map.corner(node.where) + t * (map.corner((node.where + 1) % 3) - map.corner(node.where));
       return result;
     }
-    const PlanePoint<NT> p = inner_point<NT>(*facet.waves, *facet.tessellation, place.node, bits);
+    const PlanePoint<NT> p = node_point(*facet.waves, waves, node);
     const PlanePoint<NT> b = map.affine(p);
     for (std::size_t i = 0; i < 3; ++i)
       result.position[i] = corner[0][i] + (b.x * (corner[1][i] - corner[0][i]) + b.y * (corner[2][i] - corner[0][i]));

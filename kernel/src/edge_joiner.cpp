@@ -145,6 +145,7 @@ bool EdgeJoiner::identical(const View& view, const Event& a, const Event& b) con
 
 bool EdgeJoiner::are_identical(HalfedgeId h, const Skeleton& left, const Skeleton& right) const {
   const HalfedgeId twin = in_.refined.twin(h);
+  if (left.sides[h % 3].events.empty() && right.sides[twin % 3].events.empty()) return true;
   const View view{h, twin, left, right, left.sides[h % 3], right.sides[twin % 3].reversed()};
   const auto is_essential = [](const Event& event) { return event.essential; };
   auto l = view.of_left.events.begin(), r = view.of_right.events.begin();

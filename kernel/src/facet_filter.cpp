@@ -35,7 +35,6 @@ FacetFilter::FacetFilter(const Contenders& contenders, const FacetLadder& ladder
       const DoublePoint away = minus(sides_[c].origin, wave.wave.image);
       const double r = wave.reach[c] = std::sqrt(dot(away, away));
       wave.at_corner[c] = wave.wave.weight + r;
-      if (r > 0) wave.away_at_corner[c] = {away.x / r, away.y / r};
     }
     wave.has_cone = contenders[i].has_cone;
     for (std::size_t end = 0; wave.has_cone && end < 2; ++end) {
@@ -103,7 +102,8 @@ Bounded FacetFilter::lead_at_corner(std::size_t c, std::uint32_t a, std::uint32_
 
 Bounded FacetFilter::slope_at_corner(std::size_t k, std::size_t c, std::uint32_t a, std::uint32_t b) const {
   const Wave &wa = waves_[a], &wb = waves_[b];
-  const double slope = dot(sides_[k].direction, wb.away_at_corner[c]) - dot(sides_[k].direction, wa.away_at_corner[c]);
+  const auto rise = [&](const Wave& wave) { return dot(sides_[k].direction, minus(sides_[c].origin, wave.wave.image)) / wave.reach[c]; };
+  const double slope = rise(wb) - rise(wa);
   // The unit vectors are off by twice the error over the reach, and by roundings.
   const double turn =
       4 * ((wa.wave.error + sides_[c].error) / wa.reach[c] + (wb.wave.error + sides_[c].error) / wb.reach[c]) + 32 * kUnit;

@@ -30,7 +30,6 @@ class FacetFilter {
     predicates::DoubleWave wave;
     std::array<double, 3> at_corner{};        ///< distance
     std::array<double, 3> reach{};            ///< the same without the weight
-    std::array<Point, 3> away_at_corner{};    ///< unit vector from the image, the gradient of the distance; zero where it has none
     bool has_cone = false;
     std::array<Ray, 2> ray{};
     std::array<Stretch, 3> stretch{};  ///< per side: where the wave may be seen, certainly nowhere else

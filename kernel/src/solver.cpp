@@ -219,6 +219,13 @@ class Solver {
       face_labels_[several[i]] = waves->only_label();
       if (is_one_source(face_labels_[several[i]])) return;
       tessellations_[i] = tessellate_borders(*waves, decisions);
+      if (tessellations_[i].has_one_label()) {
+        const LabelSetId label = waves->sites[tessellations_[i].outline[0].site].labels;
+        if (is_one_source(label)) {
+          face_labels_[several[i]] = label;
+          return;
+        }
+      }
       waves->forget_frames();
       waves_[i] = std::move(waves);
     });

@@ -68,6 +68,7 @@ std::optional<BisectorVertices::Triple> BisectorVertices::triple(std::uint32_t i
   const std::array<std::uint32_t, 3> w{i, j, k};
   for (std::size_t first = 0; first < 3; ++first) {
     const std::uint32_t a = w[first], b = w[(first + 1) % 3], third = w[(first + 2) % 3];
+    if (!contenders_.related(a, b)) continue;
     const bool one_ray = contenders_.eclipses(a, b) || contenders_.eclipses(b, a);
     if (one_ray && !contenders_.tangent(a, b)) return std::nullopt;  // they tie where the first does not see, or at the corner only
     for (const bool relay_first : {true, false}) {

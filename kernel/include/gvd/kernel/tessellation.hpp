@@ -53,6 +53,8 @@ struct FacetTessellation {
   /// Only the borders of label sets: arcs between different ones, and nodes on them. The outline has one piece where the label set stays the same,
   /// with the site where it begins; `representative` is complete.
   bool borders_only = false;
+  /// Whether it is known that all of the closed facet has one label set.
+  bool has_one_label() const { return borders_only && nodes.empty(); }
   bool undecided = false;  ///< some decision failed at every stage; it is listed in the decisions, and the tessellation is empty
 };
 
