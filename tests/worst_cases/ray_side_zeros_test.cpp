@@ -77,9 +77,7 @@ TEST_P(RaySideZeros, AndTheirNeighbours) {
     if (HasFailure()) FAIL() << "round " << round;
   }
   tally.record();
-  if (GetParam().one_class) {
-    EXPECT_EQ(tally.zeros[Stage::algebra], rounds);
-  }
+  EXPECT_EQ(tally.zeros[Stage::algebra], rounds);
   for (const Stage stage : {Stage::filter, Stage::double_double, Stage::mpfr}) EXPECT_GT(tally.neighbours[stage], rounds / 50);
 }
 

@@ -65,9 +65,7 @@ TEST_P(RoundedLengthZeros, AndTheirNeighbours) {
     if (HasFailure()) FAIL() << "round " << round;
   }
   tally.record();
-  if (GetParam().one_class) {
-    EXPECT_EQ(tally.zeros[Stage::algebra], rounds);
-  }
+  EXPECT_EQ(tally.zeros[Stage::algebra], rounds);
   EXPECT_GT(up, rounds / 4);
   EXPECT_LT(up, rounds * 3 / 4);
   for (const Stage stage : {Stage::double_double, Stage::mpfr}) EXPECT_GT(tally.neighbours[stage], rounds / 50);
