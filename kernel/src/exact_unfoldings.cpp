@@ -1,5 +1,6 @@
 #include "exact_unfoldings.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace gvd::kernel {
@@ -7,7 +8,7 @@ namespace gvd::kernel {
 using predicates::RootUnfolding;
 
 bool ExactUnfoldings::look_up(WindowId window, Pointer& found) const {
-  Slot& slot = slots_[window % kSlots];
+  Slot& slot = slots_[window % slots_.size()];
   const std::scoped_lock lock(slot.mutex);
   if (slot.window != window) return false;
   found = slot.unfolding;
@@ -15,7 +16,7 @@ bool ExactUnfoldings::look_up(WindowId window, Pointer& found) const {
 }
 
 void ExactUnfoldings::keep(WindowId window, const Pointer& made) const {
-  Slot& slot = slots_[window % kSlots];
+  Slot& slot = slots_[window % slots_.size()];
   const std::scoped_lock lock(slot.mutex);
   slot.window = window;
   slot.unfolding = made;
@@ -35,7 +36,7 @@ ExactUnfoldings::Pointer ExactUnfoldings::step(WindowId window, const RootUnfold
 }
 
 ExactUnfoldings::Pointer ExactUnfoldings::operator()(WindowId window) const {
-  std::call_once(allocate_, [&] { slots_ = std::make_unique<Slot[]>(kSlots); });
+  std::call_once(allocate_, [&] { slots_ = std::vector<Slot>(std::min<std::size_t>(kMostSlots, field_.windows.size())); });
   std::vector<WindowId> missing;
   Pointer at;
   bool started = false;

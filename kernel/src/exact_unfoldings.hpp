@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "gvd/kernel/unfolding.hpp"
 
@@ -23,7 +24,7 @@ class ExactUnfoldings {
     WindowId window = kNone;
     Pointer unfolding;
   };
-  static constexpr std::size_t kSlots = 1 << 14;  // some 20 MB when full
+  static constexpr std::size_t kMostSlots = 1 << 14;  // some 20 MB when full
 
   bool look_up(WindowId window, Pointer& found) const;
   void keep(WindowId window, const Pointer& made) const;
@@ -32,7 +33,7 @@ class ExactUnfoldings {
   const Frames& frames_;
   const DistanceField& field_;
   mutable std::once_flag allocate_;
-  mutable std::unique_ptr<Slot[]> slots_;
+  mutable std::vector<Slot> slots_;
 };
 
 }  // namespace gvd::kernel

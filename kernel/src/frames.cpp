@@ -135,8 +135,8 @@ ExactFace Frames::exact(FaceId f) const {
 }
 
 std::shared_ptr<const Frames::RootFrames> Frames::in_roots(FaceId f) const {
-  std::call_once(allocate_roots_, [&] { roots_ = std::make_unique<RootSlot[]>(kRootSlots); });
-  RootSlot& slot = roots_[f % kRootSlots];
+  std::call_once(allocate_roots_, [&] { roots_ = std::vector<RootSlot>(std::min<std::size_t>(kMostRootSlots, mesh_.face_count())); });
+  RootSlot& slot = roots_[f % roots_.size()];
   const std::scoped_lock lock(slot.mutex);
   if (slot.face != f) {
     const ExactFace face = exact(f);

@@ -61,9 +61,9 @@ class Frames {
     FaceId face = kNone;
     std::shared_ptr<const RootFrames> frames;
   };
-  static constexpr std::size_t kRootSlots = 1 << 14;  // some 30 MB when full
+  static constexpr std::size_t kMostRootSlots = 1 << 14;  // some 30 MB when full
   mutable std::once_flag allocate_roots_;
-  mutable std::unique_ptr<RootSlot[]> roots_;
+  mutable std::vector<RootSlot> roots_;
   struct Classes {
     std::mutex mutex;
     robust::SquareClasses list;
