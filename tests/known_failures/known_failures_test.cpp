@@ -275,11 +275,13 @@ TEST(KnownFailures, Geos_1123_NearDuplicates) {
   const PlanarCells cells({{6.5, 53.5}, {6.5 + 1e-7, 53.5}, {6.5, 53.5 + 1e-9}, {6.25, 53.75}, {6.25 + 1e-13, 53.75}});
   EXPECT_EQ(cells.solution->summary().cells, 5u);
   EXPECT_TRUE(cells.solution->duplicates().empty());
+  EXPECT_NEAR(cells.area, 1, 1e-12);
 }
 TEST(KnownFailures, Scipy_10464_CloseSitesAreNotMerged) {
   const PlanarCells cells({{6.5, 53.5}, {std::nextafter(6.5, 7), 53.5}});
   EXPECT_EQ(cells.solution->summary().cells, 2u);
   EXPECT_EQ(cells.solution->diagram().dual.size(), 1u);
+  EXPECT_NEAR(cells.area, 1, 1e-12);
 }
 
 }  // namespace
