@@ -122,6 +122,22 @@ TEST(TiedInputs, MirroredTerrain) {
   }
 }
 
+TEST(TiedInputs, SourcesInARowInOneFace) {
+  // Their bisectors are parallel: no three of them meet, in whatever face they are seen together. Beyond the source's own face nearly every face has a
+  // square class of its own, so only numbers of the place where the strips part show it.
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    const Mesh mesh(test::random_terrain(10, 2, seed));
+    const FaceId f = 2 * (5 * 10 + 5);
+    std::vector<Source> inside, on_edge;
+    for (const long k : {1, 2, 3}) {
+      inside.push_back({point_in_face(mesh, f, {mpq_class(k), mpq_class(5 - k), mpq_class(1)}), 0});
+      on_edge.push_back({point_on_edge(mesh, mesh.origin(3 * f), mesh.target(3 * f), mpq_class(k, 5)), 0});
+    }
+    expect_right(mesh, inside, "inside a face, seed " + std::to_string(seed));
+    expect_right(mesh, on_edge, "on an edge, seed " + std::to_string(seed));
+  }
+}
+
 TEST(TiedInputs, CubeWithSourcesInAllCorners) {
   for (const std::uint32_t n : {1u, 2u, 3u, 10u}) {
     SCOPED_TRACE(n);
