@@ -21,9 +21,8 @@ using kernel::Status;
 /// What is left of the time limit, which counts from the start of the program; 0: no limit.
 double remaining_seconds(const Options& options) {
   if (options.time_limit_seconds == 0) return 0;
-  constexpr double kSoon = 1e-9;  // 0 would mean no limit
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - options.start).count();
-  return std::max(kSoon, options.time_limit_seconds - elapsed);
+  return std::max(std::numeric_limits<double>::min(), options.time_limit_seconds - elapsed);  // 0 would mean no limit
 }
 
 kernel::Solution run(const kernel::Mesh& mesh, const std::vector<kernel::Source>& sources, const Options& options, bool diagram) {
