@@ -90,9 +90,14 @@ bool Contenders::may_touch(const FacetLadder& ladder, const Contender& left, con
   return (left.cone[1] == right.cone[0] && left.cone[1] != kNone) || rays_apart(ladder.filter(), left, right).value_or(Sign::zero) == Sign::zero;
 }
 
-/// Whether it is. Pre: the images are one.
+/// Whether it is. Pre: the images are one. By name only if the two strips see the vertex in one place: as a corner of the facet, or with nothing but
+/// flat vertices between them. Curvature may cancel, so that the image is one and the vertex is not.
 bool Contenders::touching(FacetLadder& ladder, const Contender& left, const Contender& right) const {
-  if (left.cone[1] == right.cone[0] && left.cone[1] != kNone) return true;
+  if (const auto apart = rays_apart(ladder.filter(), left, right)) return *apart == Sign::zero;
+  if (left.cone[1] == right.cone[0] && left.cone[1] != kNone) {
+    if (std::find(waves_.corner.begin(), waves_.corner.end(), left.cone[1]) != waves_.corner.end()) return true;
+    if (waves_.have_one_image(left.cone_site[1], right.cone_site[0])) return true;
+  }
   return ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return rays_apart(numbers, left, right); }) == Sign::zero;
 }
 
