@@ -93,7 +93,7 @@ void add_compute(CLI::App& app, Options& options) {
       ->type_name("DIR");
   options.deviation = io::kDefaultDeviation;
   compute->add_option("--deviation", options.deviation, "Largest deviation of drawn arcs in the .vtp files, as a part of the longest side of the facet")
-      ->check(CLI::Range(1e-9, 1.0))
+      ->check(CLI::Range(io::kLeastDeviation, 1.0))
       ->capture_default_str();
   compute->add_option("--units", options.units, "Name of the mesh's unit of length for the map and diagram.json")->capture_default_str();
   compute->footer(

@@ -57,8 +57,8 @@ bool Contenders::may_have_one_image(const FacetLadder& ladder, const Contender& 
   return !separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image);
 }
 
-/// Pre: doubles do not separate the images. The image is one for windows that pass a flat corner of the facet on either side: identity. Elsewhere it takes the exact
-/// numbers.
+/// Pre: doubles do not separate the images. The image is one for windows that pass a flat corner of the facet on either side: identity.
+/// Elsewhere it takes the exact numbers.
 bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const bool round_corner = left.cone[1] == waves_.corner[k] && right.cone[0] == waves_.corner[k];

@@ -16,6 +16,17 @@ double one_norm(const DoublePoint& p) { return std::fabs(p.x) + std::fabs(p.y); 
 DoublePoint minus(const DoublePoint& a, const DoublePoint& b) { return {a.x - b.x, a.y - b.y}; }
 double dot(const DoublePoint& a, const DoublePoint& b) { return a.x * b.x + a.y * b.y; }
 
+/// Takes off what lies where a linear function is negative, whose values at 0 and 1 are given; `low` and `high` round its root.
+template <class Low, class High>
+void cut(FacetFilter::Stretch& stretch, double at_0, double at_1, Low low, High high) {
+  if (at_0 < 0 && at_1 < 0)
+    stretch = {2, -1};
+  else if (at_0 < 0)
+    stretch.low = std::max(stretch.low, low(at_0, at_1));
+  else if (at_1 < 0)
+    stretch.high = std::min(stretch.high, high(at_0, at_1));
+}
+
 }  // namespace
 
 FacetFilter::FacetFilter(const Contenders& contenders, const FacetLadder& ladder) {
@@ -55,19 +66,9 @@ void FacetFilter::cut_stretches(const Ray& ray, const Contender& contender, Wave
     least[k] = contender.attains_corner[k] ? std::max(0.0, at.value - error) : at.value - error;
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    Stretch &may = wave.stretch[k], &does = wave.seen[k];
-    if (const double from = most[k], to = most[(k + 1) % 3]; from < 0 && to < 0)
-      may = {2, -1};
-    else if (from < 0)
-      may.low = std::max(may.low, predicates::below_zero_of(from, to));
-    else if (to < 0)
-      may.high = std::min(may.high, predicates::above_zero_of(from, to));
-    if (const double from = least[k], to = least[(k + 1) % 3]; from < 0 && to < 0)
-      does = {2, -1};
-    else if (from < 0)
-      does.low = std::max(does.low, predicates::above_zero_of(from, to));
-    else if (to < 0)
-      does.high = std::min(does.high, predicates::below_zero_of(from, to));
+    const std::size_t next = (k + 1) % 3;
+    cut(wave.stretch[k], most[k], most[next], predicates::below_zero_of, predicates::above_zero_of);
+    cut(wave.seen[k], least[k], least[next], predicates::above_zero_of, predicates::below_zero_of);
   }
 }
 

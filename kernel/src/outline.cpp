@@ -146,7 +146,10 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
   if (events.empty() && from == last) return true;
   for (std::size_t end = 0; contenders_[from].has_cone && end < 2; ++end) {
     const std::uint32_t ray = contenders_[from].cone_site[end];
-    if (!events.empty() && events[0].ray != FacetTessellation::kNoSite && contenders_.is_on_ray(from, end, events[0].ray, events[0].ray_end)) continue;
+    if (!events.empty() && events[0].ray != FacetTessellation::kNoSite && contenders_.is_on_ray(from, end, events[0].ray, events[0].ray_end)) {
+      if (events[0].ray != ray || events[0].ray_end != end) events[0].on_ray = true;  // another name for it
+      continue;
+    }
     if (!events.empty() && events[0].filtered && events[0].filtered->existence == Existence::proved) {
       const auto& t = events[0].filtered->t;  // between its bounds the ray's side is linear
       if (filter_.cone_side(side, from, end, t.lower()).positive() && filter_.cone_side(side, from, end, t.upper()).positive()) {

@@ -6,8 +6,10 @@
 
 namespace gvd::io {
 
-/// Default chord deviation of drawn arcs, as a fraction of the longest side of their face.
+/// Default chord deviation of drawn arcs, as a fraction of the longest side of their face. It decides nothing: the diagram has the arcs themselves.
 inline constexpr double kDefaultDeviation = 1e-4;
+/// The finest: some 32,000 chords for an arc across a face, since halving a chord quarters its deviation.
+inline constexpr double kLeastDeviation = 1e-9;
 
 /// GVD edges as polylines in VTK XML PolyData (docs/formats.md#diagramvtp-and-cellsvtp). The chords deviate from the arcs by at most `deviation` times the
 /// longest side of the face; the fraction and the largest absolute value are in the field data.

@@ -1,0 +1,257 @@
+/// What the strips of a facet's waves prove about one another, without numbers or by algebra over the strips.
+#include <algorithm>
+
+#include "facet_waves.hpp"
+#include "gvd/robust/rational.hpp"
+
+namespace gvd::kernel {
+
+using predicates::Strip;
+using robust::Exact;
+
+/// The sides that a strip crosses, from its root on; each in the face that is left.
+FieldWaves::Sides FieldWaves::sides_of(const Strip& strip) {
+  Sides sides{strip.opposite};
+  for (const predicates::StripStep& step : strip.steps) sides.push_back(step.side);
+  return sides;
+}
+
+/// Two ways from one root to this facet. Wherever they part, until they meet again, the vertices on the right of one must be those
+/// on the left of the other: then the ways enclose nothing else. Round flat vertices alone, either way unfolds the root to one
+/// image.
+bool FieldWaves::enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  const auto beside = [&](std::span<const HalfedgeId> part, bool right) {
+    std::vector<VertexId> chain;
+    for (const HalfedgeId side : part) {  // directed against the half-edge that the way comes in over
+      const VertexId v = right ? mesh.origin(side) : mesh.target(side);
+      if (chain.empty() || chain.back() != v) chain.push_back(v);
+    }
+    return chain;
+  };
+  const auto is_flat = [&](VertexId v) { return kinds_[v] == VertexKind::flat && !mesh.is_boundary(v); };
+  while (!a.empty() || !b.empty()) {
+    if (!a.empty() && !b.empty() && a.front() == b.front()) {
+      a = a.subspan(1), b = b.subspan(1);
+      continue;
+    }
+    std::size_t a_end = 0, b_end = b.size();  // where they meet again
+    for (; a_end < a.size(); ++a_end) {
+      b_end = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[a_end]) - b.begin());
+      if (b_end < b.size()) break;
+    }
+    const auto of_a = a.first(a_end), of_b = b.first(b_end);
+    auto chain = beside(of_a, true);
+    if (chain != beside(of_b, false)) {
+      chain = beside(of_a, false);
+      if (chain != beside(of_b, true)) return false;
+    }
+    if (chain.empty() || !std::all_of(chain.begin(), chain.end(), is_flat)) return false;
+    a = a.subspan(a_end), b = b.subspan(b_end);
+  }
+  return true;
+}
+
+bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
+  if (sites[left].root != sites[right].root || sites[left].window == kNone || sites[right].window == kNone) return false;
+  return enclose_only_flat(sides_of(strip(left)), sides_of(strip(right)));
+}
+
+/// Both strips must have been beside the vertex once only, and have crossed the same sides since.
+bool FieldWaves::share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) {
+  const VertexId v = sites[a].cone[end_a];
+  if (v == kNone || sites[b].cone[end_b] != v) return false;
+  const auto since = [&](std::size_t site) {  // the half-edges back to the last one that v is an end of; none if v was left and met again
+    std::vector<HalfedgeId> way;
+    bool beside = false, left = false;
+    for (WindowId w = sites[site].window; w != kNone; w = field_.windows[w].parent) {
+      const HalfedgeId h = field_.windows[w].halfedge();
+      const bool is_end = resolution_.frames().mesh().origin(h) == v || resolution_.frames().mesh().target(h) == v;
+      if (left && is_end) return std::vector<HalfedgeId>();
+      if (!beside) way.push_back(h);
+      left = left || (beside && !is_end);
+      beside = beside || is_end;
+    }
+    return way;
+  };
+  const auto way = since(a);
+  return !way.empty() && way == since(b);
+}
+
+bool FieldWaves::are_proved_one_image(std::size_t a, std::size_t b) {
+  if (sites[a].root != sites[b].root || sites[a].window == kNone || sites[b].window == kNone) return false;
+  return have_one_image_by_algebra(sides_of(strip(a)), sides_of(strip(b)));
+}
+
+/// Of one root, through two strips that end in this facet. Over different sides, one image is seen from behind the other's side: 1 - z.
+bool FieldWaves::have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+  const predicates::StripProgram of_a = program_of(a);
+  const bool one_side = a.back() == b.back();
+  const predicates::StripProgram of_b = one_side ? program_of(b) : program_beyond(side_entered(a), b);
+  const std::array<long, 4> x = one_side ? std::array<long, 4>{0, 1, 0, 0} : std::array<long, 4>{0, -1, 0, 1};
+  return are_proved_equal(of_a.value(x), of_b.value({0, 1, 0, 0})) &&
+         are_proved_equal(of_a.value({0, 0, one_side ? 1 : -1, 0}), of_b.value({0, 0, 1, 0}));
+}
+
+/// Their mirror image in the side entered: conj(1 - z) as seen from behind it.
+bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
+  const FacetSite &a = sites[entering], &b = sites[other];
+  const std::uint8_t side = a.side;
+  if (a.window == kNone || (b.window == kNone ? b.corner != (side + 2) % 3 : b.side == side)) return false;
+  if (!resolution_.have_equal_distances(a.root, b.root)) return false;
+  const predicates::StripProgram of_a = program_of(sides_of(strip(entering)));
+  const predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(program_face(resolution_.frames(), face), side)
+                                                          : program_beyond(side, sides_of(strip(other)));
+  return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
+         are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
+}
+
+/// The side of this facet over which a strip comes in.
+std::uint8_t FieldWaves::side_entered(std::span<const HalfedgeId> sides) const {
+  return static_cast<std::uint8_t>(resolution_.frames().mesh().twin(sides.back()) % 3);
+}
+
+predicates::StripProgram FieldWaves::program_of(std::span<const HalfedgeId> sides) const {
+  const Frames& frames = resolution_.frames();
+  const auto of_face = [&](HalfedgeId h) { return program_face(frames, Mesh::face(h)); };
+  predicates::StripProgram program(of_face(sides[0]), sides[0] % 3);
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    program.cross(of_face(sides[i]), sides[i] % 3, sides[i] == Mesh::prev(frames.mesh().twin(sides[i - 1])));
+  return program;
+}
+
+/// The image of a strip that comes over another side, in the frame of `side` as the neighbour there sees it: in which an image z in the facet's own
+/// frame of that side is 1 - z.
+predicates::StripProgram FieldWaves::program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const {
+  predicates::StripProgram program = program_of(sides);
+  program.cross(program_face(resolution_.frames(), face), side, side == (side_entered(sides) + 2) % 3);
+  return program;
+}
+
+/// The nearest way to the root of `relay` must be the parent's own, as far as that goes, and then turn about it into the strip of
+/// `relay`.
+bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
+  if (sites[parent].window == kNone) return false;
+  return has_relay_on_strip(parent, relay) || has_relay_on_other_way(parent, relay);
+}
+
+/// Whether the relay's strip is the end of the parent's, and before that the parent's strip turns about the relay since it arrived
+/// there.
+bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  const VertexId v = sites[relay].root;
+  const auto before = [&](WindowId window) { return field_.windows[window].parent; };
+  const auto crossed = [&](WindowId window) { return field_.windows[window].halfedge(); };
+  WindowId w = sites[parent].window;
+  for (WindowId own = sites[relay].window; own != kNone; own = before(own), w = before(w))
+    if (w == kNone || crossed(w) != crossed(own)) return false;
+  for (; w != kNone; w = before(w)) {
+    const HalfedgeId h = crossed(w);
+    if (mesh.apex(h) == v) return resolution_.attains(w, v) || resolution_.is_as_far(w, v);
+    if (mesh.origin(h) != v && mesh.target(h) != v) return false;
+    if (before(w) == kNone) return resolution_.attains_along_edge(sites[parent].root, v);
+  }
+  return false;
+}
+
+/// The sides crossed when one turns about a vertex, from the first of them until face `end` is reached.
+std::optional<FieldWaves::Sides> FieldWaves::turn_about(HalfedgeId first, bool left, FaceId end) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  Sides sides;
+  HalfedgeId side = first;
+  do {
+    sides.push_back(side);
+    const HalfedgeId in = mesh.twin(side);
+    if (in == kNone) return std::nullopt;
+    if (Mesh::face(in) == end) return sides;
+    side = left ? Mesh::next(in) : Mesh::prev(in);
+  } while (side != first);
+  return std::nullopt;
+}
+
+/// A way to vertex v and on about it to face `end`; empty if it would leave the mesh.
+std::optional<FieldWaves::Sides> FieldWaves::way_about(const Candidate& way, VertexId v, bool left, FaceId end) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  if (way.window == kNone) {  // along an edge: the face beside it opposite v's next side
+    HalfedgeId edge = resolution_.edge_between(way.via, v);
+    if ((mesh.origin(edge) == v) == left) edge = mesh.twin(edge);
+    if (edge == kNone) return std::nullopt;
+    return turn_about(left ? Mesh::next(edge) : Mesh::prev(edge), left, end);
+  }
+  Sides sides = sides_of(strip_of(mesh, field_, way.window));
+  const HalfedgeId last = field_.windows[way.window].halfedge();
+  if (Mesh::face(last) == end) return sides;
+  const auto turn = turn_about(left ? Mesh::prev(last) : Mesh::next(last), left, end);
+  if (!turn) return std::nullopt;
+  sides.insert(sides.end(), turn->begin(), turn->end());
+  return sides;
+}
+
+/// The same where the parent's image is that of the way through the relay: because they have only flat vertices between them, or by algebra.
+bool FieldWaves::has_relay_on_other_way(std::size_t parent, std::size_t relay) const {
+  const VertexId v = sites[relay].root;
+  const Sides own = sides_of(strip(parent));
+  const Sides rest = sites[relay].window == kNone ? Sides{} : sides_of(strip(relay));
+  const FaceId end = rest.empty() ? face : Mesh::face(rest.front());
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
+    if (field_.candidates[c].via != sites[parent].root) continue;
+    for (const bool left : {true, false}) {
+      auto way = way_about(field_.candidates[c], v, left, end);
+      if (!way) continue;
+      way->insert(way->end(), rest.begin(), rest.end());
+      if (enclose_only_flat(own, *way) || have_one_image_by_algebra(own, *way)) return true;
+    }
+  }
+  return false;
+}
+
+/// The half-edge that all windows are on, if the corners among the waves are ends of it; else kNone.
+HalfedgeId FieldWaves::common_side(std::span<const std::uint32_t> which, std::span<const WindowId> windows) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  HalfedgeId common = kNone;
+  for (const WindowId w : windows) {
+    if (w == kNone) continue;
+    const HalfedgeId h = field_.windows[w].halfedge();
+    if (common != kNone && h != common) return kNone;
+    common = h;
+  }
+  for (std::size_t n = 0; common != kNone && n < which.size(); ++n) {
+    const VertexId v = sites[which[n]].root;
+    if (windows[n] == kNone && v != mesh.origin(common) && v != mesh.target(common)) return kNone;
+  }
+  return common;
+}
+
+/// Goes to the parents; false if a strip begins here.
+bool FieldWaves::step_back(std::vector<WindowId>& windows) const {
+  for (WindowId& w : windows)
+    if (w != kNone && (w = field_.windows[w].parent) == kNone) return false;
+  return true;
+}
+
+std::vector<predicates::Site<Exact>> FieldWaves::where_they_part(std::span<const std::uint32_t> which) {
+  std::vector<WindowId> at, back;  // kNone: a corner
+  for (const std::uint32_t i : which) back.push_back(sites[i].window);
+  HalfedgeId base = kNone;
+  for (HalfedgeId h = common_side(which, back); h != kNone; h = step_back(back) ? common_side(which, back) : kNone) {
+    base = h;
+    at = back;
+  }
+  if (base == kNone || Mesh::face(base) == face) return {};
+  const Frames& frames = resolution_.frames();
+  const Exact length = sqrt(Exact(frames.exact(Mesh::face(base)).squared[base % 3]));
+  std::vector<predicates::Site<Exact>> result;
+  for (std::size_t n = 0; n < which.size(); ++n) {
+    predicates::Site<Exact>& site = result.emplace_back();
+    const VertexId root = sites[which[n]].root;
+    site.weight = exact_weight(root, length);
+    site.image = {Exact(root == frames.mesh().target(base) ? 1.0 : 0.0), Exact(0.0)};
+    if (at[n] == kNone) continue;
+    const auto unfolding = resolution_.exact_unfolding(at[n]);
+    if (!unfolding) return {};
+    site.image = {Exact(unfolding->image.x), Exact(unfolding->image.y)};
+  }
+  return result;
+}
+
+}  // namespace gvd::kernel
