@@ -71,7 +71,7 @@ bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Co
     ladder.count(Predicate::edge_tie, robust::Stage::identity);
     return true;
   }
-  if (waves_.are_proved_one_image(left.site, right.site)) {
+  if (waves_.are_proved_one_wave(left.site, right.site)) {
     ladder.count(Predicate::edge_tie, robust::Stage::algebra);
     return true;
   }
@@ -155,14 +155,24 @@ void Contenders::find_tangencies(FacetLadder& ladder) {
   share_eclipses(ladder);
 }
 
-/// Windows of one root with one image, whose cones do not touch, have one distance everywhere: neither is nearer than the other, and each eclipses,
-/// or is eclipsed by, what the other does.
+/// Whether the two are one wave, cones aside: windows of one root, or of two that are as far, with one image.
+bool Contenders::are_one_wave(FacetLadder& ladder, const Contender& a, const Contender& b) const {
+  if (a.root == b.root) return may_have_one_image(ladder, a, b) && same_image(ladder, a, b);
+  if (!a.has_cone || !b.has_cone || predicates::certainly_apart(ladder.doubles()[a.site], ladder.doubles()[b.site])) return false;
+  const auto& sites = ladder.filter().sites;
+  return !separated(sites[a.site]->image, sites[b.site]->image) && waves_.are_proved_one_wave(a.site, b.site);
+}
+
+/// Windows that are one wave and were not merged have one distance everywhere: neither is nearer than the other, and each eclipses, or is eclipsed by,
+/// what the other does. Two of different roots whose cones touch part at the common ray, behind a vertex that both reach straight on: the region of the
+/// vertex is that ray, no wider.
 void Contenders::share_eclipses(FacetLadder& ladder) {
   const std::size_t n = list_.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       const Contender &a = list_[i], &b = list_[j];
-      if (i == j || !may_have_one_image(ladder, a, b) || !same_image(ladder, a, b)) continue;
+      if (i == j || !are_one_wave(ladder, a, b)) continue;
+      if (a.root != b.root && may_touch(ladder, a, b) && touching(ladder, a, b)) tangent_[i * n + j] = 1;
       eclipsed_[i * n + j] = 1;
       for (std::size_t k = 0; k < n; ++k) {
         if (k != i && eclipsed_[j * n + k] != 0) eclipsed_[i * n + k] = 1;
@@ -227,10 +237,24 @@ int Contenders::ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) c
   return kNotTangent;
 }
 
+std::uint32_t Contenders::starts_on_ray(std::size_t parent, std::size_t relay) const {
+  const int end = tangent_end(parent, relay);
+  for (std::uint32_t between = 0; eclipses(relay, parent) && between < list_.size(); ++between)
+    if (tangent_end(parent, between) == end && !eclipses(between, parent)) return between;
+  return static_cast<std::uint32_t>(relay);
+}
+
+/// Whether two that are one wave part at these rays of theirs.
+bool Contenders::share_ray(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) const {
+  if (end_a == end_b || !eclipses(a, b) || !eclipses(b, a)) return false;
+  return end_a == 1 ? tangent_end(a, b) == 1 : tangent_end(b, a) == 1;
+}
+
 bool Contenders::is_on_ray(std::size_t i, std::size_t end, std::uint32_t site, std::size_t site_end) const {
   if (list_[i].cone_site[end] == site && end == site_end) return true;
   for (std::size_t p = 0; p < list_.size(); ++p) {
     if (!list_[p].has_cone || list_[p].cone_site[site_end] != site || (!eclipses(p, i) && !eclipses(i, p))) continue;
+    if (share_ray(p, site_end, i, end)) return true;
     const bool image_on_ray = tangent_end(p, i) == static_cast<int>(site_end) || tangent_end(i, p) == static_cast<int>(end);
     if (image_on_ray && waves_.share_cone_vertex(site, site_end, list_[i].cone_site[end], end)) return true;
     for (std::size_t q = 0; q < list_.size(); ++q)

@@ -55,9 +55,11 @@ class Contenders {
   std::size_t size() const { return list_.size(); }
   const Contender& operator[](std::size_t i) const { return list_[i]; }
   /// The end of the parent's cone at which `relay` starts (then the two tie exactly on that ray, and inside the parent's cone the parent
-  /// is nearer), or kNotTangent.
+  /// is nearer), or kNotTangent. Two that are one wave, with cones that touch, are tangent as well: the left one is called the parent.
   int tangent_end(std::size_t parent, std::size_t relay) const { return tangent_[parent * list_.size() + relay]; }
   bool tangent(std::size_t a, std::size_t b) const { return tangent_end(a, b) != kNotTangent || tangent_end(b, a) != kNotTangent; }
+  /// The one that starts on the ray where a tangent pair parts: the relay, or, if the two are one wave, the vertex between them.
+  std::uint32_t starts_on_ray(std::size_t parent, std::size_t relay) const;
   /// Whether `relay` is, by identity, nowhere nearer than `wave`, cones aside: the path to the relay goes through `wave`'s strip, so its weight is
   /// that of `wave` plus the distance of the images, and their bisector is the ray beyond the relay. (Tangent pairs are of this kind.)
   bool eclipses(std::size_t wave, std::size_t relay) const { return eclipsed_[wave * list_.size() + relay] != 0; }
@@ -85,7 +87,9 @@ class Contenders {
   bool may_touch(const FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   void find_tangencies(FacetLadder& ladder);
+  bool are_one_wave(FacetLadder& ladder, const Contender& a, const Contender& b) const;
   void share_eclipses(FacetLadder& ladder);
+  bool share_ray(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) const;
   bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   bool may_enter_beyond(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   int ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) const;

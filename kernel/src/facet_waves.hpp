@@ -35,7 +35,7 @@ class FieldWaves final : public FacetWaves {
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
   bool have_one_image(std::size_t left, std::size_t right) override;
   bool share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) override;
-  bool are_proved_one_image(std::size_t a, std::size_t b) override;
+  bool are_proved_one_wave(std::size_t a, std::size_t b) override;
   bool are_mirror_images(std::size_t entering, std::size_t other) override;
   /// Windows in double-double that are known already; it may lack any. Null: none.
   void use(const UnfoldedWindows<robust::DoubleDouble>* unfolded) { double_double_ = unfolded; }

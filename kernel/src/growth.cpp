@@ -175,14 +175,15 @@ std::optional<bool> Growth::reaches(std::uint32_t a, std::uint32_t b, std::uint3
 /// hyperbola the coordinate across the line of the two foci is monotone; along a boundary ray the one along it.
 MaybeSign Growth::along_arc(std::uint32_t a, std::uint32_t b, const Node& from, const Node& to) {
   const bool a_is_parent = contenders_.tangent_end(a, b) != Contenders::kNotTangent;
-  const bool b_is_parent = contenders_.tangent_end(b, a) != Contenders::kNotTangent;
+  const std::uint32_t parent = a_is_parent ? a : b;
+  const int end = a_is_parent ? contenders_.tangent_end(a, b) : contenders_.tangent_end(b, a);
   const auto test = [&](const auto& numbers) {
     const auto step = node_point(waves_, numbers, to) - node_point(waves_, numbers, from);
-    const auto foci = numbers.sites[contenders_[b].site]->image - numbers.sites[contenders_[a].site]->image;
-    if (!a_is_parent && !b_is_parent) return maybe_sign(cross(foci, step));
-    const MaybeSign outward = maybe_sign(a_is_parent ? dot(foci, step) : -dot(foci, step));
-    const int end = a_is_parent ? contenders_.tangent_end(a, b) : contenders_.tangent_end(b, a);
-    const bool goes_outward = b_is_parent == (end == 0);  // through cone vertex 0 the relay is on the left of its parent's ray
+    if (end == Contenders::kNotTangent)
+      return maybe_sign(cross(numbers.sites[contenders_[b].site]->image - numbers.sites[contenders_[a].site]->image, step));
+    const auto& window = *numbers.sites[contenders_[parent].cone_site[static_cast<std::size_t>(end)]];
+    const MaybeSign outward = maybe_sign(dot(window.cone[static_cast<std::size_t>(end)] - window.image, step));
+    const bool goes_outward = (parent == b) == (end == 0);  // through cone vertex 0 the relay is on the left of its parent's ray
     return outward && !goes_outward ? MaybeSign(-*outward) : outward;
   };
   return ladder_.decide(Predicate::bisector_vertex, test,

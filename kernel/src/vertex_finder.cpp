@@ -79,7 +79,7 @@ std::optional<BisectorVertices::Triple> BisectorVertices::triple(std::uint32_t i
       if (tangent_pairs > 1 || (end == 0) != relay_first) return std::nullopt;
       if (contenders_.eclipses(third, relay)) return std::nullopt;  // two rays that meet in the relay itself only
       result.on_ray = true;
-      result.pivot = relay;
+      result.pivot = contenders_.starts_on_ray(parent, relay);
       result.other = third;
       result.parent = parent;
       result.ray_end = static_cast<std::uint8_t>(end);

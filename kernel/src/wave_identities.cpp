@@ -78,12 +78,12 @@ bool FieldWaves::share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t
   return !way.empty() && way == since(b);
 }
 
-bool FieldWaves::are_proved_one_image(std::size_t a, std::size_t b) {
-  if (sites[a].root != sites[b].root || sites[a].window == kNone || sites[b].window == kNone) return false;
+bool FieldWaves::are_proved_one_wave(std::size_t a, std::size_t b) {
+  if (sites[a].window == kNone || sites[b].window == kNone || !resolution_.have_equal_distances(sites[a].root, sites[b].root)) return false;
   return have_one_image_by_algebra(sides_of(strip(a)), sides_of(strip(b)));
 }
 
-/// Of one root, through two strips that end in this facet. Over different sides, one image is seen from behind the other's side: 1 - z.
+/// Through two strips that end in this facet. Over different sides, one image is seen from behind the other's side: 1 - z.
 bool FieldWaves::have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
   const predicates::StripProgram of_a = program_of(a);
   const bool one_side = a.back() == b.back();

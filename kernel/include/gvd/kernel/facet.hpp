@@ -75,8 +75,8 @@ class FacetWaves {
     return false;
   }
 
-  /// The same, by algebra of the two strips.
-  virtual bool are_proved_one_image(std::size_t a, std::size_t b) {
+  /// Whether two windows have one image and roots that are as far, by algebra of the strips: one wave, cones aside. True is a proof, false says nothing.
+  virtual bool are_proved_one_wave(std::size_t a, std::size_t b) {
     static_cast<void>(a);
     static_cast<void>(b);
     return false;
