@@ -67,10 +67,9 @@ void Resolution::resolve(predicates::Decisions& decisions) {
   std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
     return field_.distance[a] != field_.distance[b] ? field_.distance[a] < field_.distance[b] : a < b;
   });
-  begun_.assign(labels_.size(), 0);
   images_ = std::make_unique<WindowImages>(frames_, field_, windows_of_candidates());
   for (const VertexId v : order)
-    if (labels_[v] == kNone && !resolve_vertex(v, decisions)) throw InternalError("vertex " + std::to_string(v) + " is reached by no candidate");
+    while (labels_[v] == kNone) resolve_vertex(waits(v) ? first_of(cluster_of(v), decisions) : v, decisions);
   images_.reset();
 }
 
@@ -88,31 +87,97 @@ std::vector<WindowId> Resolution::windows_of_candidates() const {
   return windows;
 }
 
-/// A root of v that is not resolved yet lies farther than v by more than all errors, or the two are closer than doubles can tell: then it comes
-/// first, unless its own paths all come through v. False if v is to leave it out.
-bool Resolution::resolve_root(VertexId v, VertexId root, predicates::Decisions& decisions) {
-  if (!(field_.distance[root] - field_.error[root] < field_.distance[v] + field_.error[v])) return false;
-  if (begun_[root] == 0) return resolve_vertex(root, decisions);
-  predicates::undecided(decisions, Predicate::vertex_distance, "order of vertices " + std::to_string(v) + " and " + std::to_string(root));
+/// Whether a path of v comes through a vertex that is not resolved yet and may be nearer than v: the two are closer than doubles can tell. (Others that
+/// are not resolved are farther by more than all errors.)
+bool Resolution::is_awaited(const Candidate& c, VertexId v) const {
+  if (c.via == v || labels_[c.via] != kNone || (c.window != kNone && field_.is_stale(c.window))) return false;
+  return field_.distance[c.via] - field_.error[c.via] < field_.distance[v] + field_.error[v];
+}
+
+bool Resolution::waits(VertexId v) const {
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next)
+    if (is_awaited(field_.candidates[c], v)) return true;
   return false;
 }
 
-/// False if all paths to v come through vertices whose resolution has begun.
-bool Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
-  begun_[v] = 1;
+/// v, and what it waits for, and what these wait for.
+Resolution::Cluster Resolution::cluster_of(VertexId v) const {
+  Cluster cluster{v};
+  for (std::size_t i = 0; i < cluster.size(); ++i)
+    for (std::uint32_t c = field_.first_candidate[cluster[i]]; c != kNone; c = field_.candidates[c].next)
+      if (const Candidate& candidate = field_.candidates[c]; is_awaited(candidate, cluster[i]))
+        if (std::find(cluster.begin(), cluster.end(), candidate.via) == cluster.end()) cluster.push_back(candidate.via);
+  return cluster;
+}
+
+/// The one whose nearest path is known to come through resolved vertices alone. The nearest of all is such a one, since legs are not of length zero.
+VertexId Resolution::first_of(const Cluster& cluster, predicates::Decisions& decisions) {
+  if (const auto first = first_by(cluster, [&](const Candidate& c, VertexId v) { return std::pair(leg(c, v), distance_[c.via]); })) {
+    predicates::count(decisions, Predicate::vertex_distance, Stage::double_double);
+    return *first;
+  }
+  for (const int bits : kMpfrBits) {
+    const auto in_mpfr = [&](const Candidate& c, VertexId v) {
+      const bool known = c.via != v && labels_[c.via] != kNone;
+      return std::pair(leg(c, v, bits), known ? distance(c.via, bits) : Ball<Mpfr>(Mpfr(0.0, bits), 0));
+    };
+    if (const auto first = first_by(cluster, in_mpfr)) {
+      predicates::count(decisions, Predicate::vertex_distance, Stage::mpfr);
+      return *first;
+    }
+  }
+  predicates::undecided(decisions, Predicate::vertex_distance,
+                        "order of vertices " + std::to_string(cluster[0]) + " and " + std::to_string(cluster[1]));
+  return *std::min_element(cluster.begin(), cluster.end(), [&](VertexId a, VertexId b) { return field_.distance[a] < field_.distance[b]; });
+}
+
+/// `lengths`: of the last leg, and of the way to where it starts (of no meaning if that is not resolved).
+template <class Lengths>
+std::optional<VertexId> Resolution::first_by(const Cluster& cluster, const Lengths& lengths) const {
+  using Length = typename std::invoke_result_t<Lengths, const Candidate&, VertexId>::first_type;
+  struct Known {
+    std::vector<Length> paths, awaited;  ///< through resolved vertices; and the last legs of those through others
+  };
+  std::vector<Known> known(cluster.size());
+  for (std::size_t i = 0; i < cluster.size(); ++i) {
+    for (std::uint32_t c = field_.first_candidate[cluster[i]]; c != kNone; c = field_.candidates[c].next) {
+      const Candidate& candidate = field_.candidates[c];
+      const bool awaited = is_awaited(candidate, cluster[i]);
+      if (!awaited && candidate.via != cluster[i] && labels_[candidate.via] == kNone) continue;  // certainly farther
+      if (candidate.window != kNone && field_.is_stale(candidate.window)) continue;
+      const auto [leg, before] = lengths(candidate, cluster[i]);
+      if (awaited)
+        known[i].awaited.push_back(leg);
+      else
+        known[i].paths.push_back(candidate.via == cluster[i] ? leg : before + leg);
+    }
+  }
+  const auto is_first = [&](const Known& own) {  // whether a path of its own is shorter than any to another one and on
+    return std::any_of(own.paths.begin(), own.paths.end(), [&](const Length& path) {
+      return std::all_of(known.begin(), known.end(), [&](const Known& other) {
+        return std::all_of(other.paths.begin(), other.paths.end(), [&](const Length& way) {
+          return std::all_of(own.awaited.begin(), own.awaited.end(),
+                             [&](const Length& leg) { return maybe_sign(way + leg - path) == robust::Sign::positive; });
+        });
+      });
+    });
+  };
+  for (std::size_t i = 0; i < cluster.size(); ++i)
+    if (is_first(known[i])) return cluster[i];
+  return std::nullopt;
+}
+
+/// Pre: what v waits for is resolved, or certainly farther.
+void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
   const auto open_decisions = [&] { return decisions(static_cast<std::size_t>(Predicate::vertex_distance), Stage::undecided); };
   const std::uint64_t open_before = open_decisions();
   std::vector<std::uint32_t> list;
   for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
     const Candidate& candidate = field_.candidates[c];
     if (candidate.window != kNone && field_.is_stale(candidate.window)) continue;  // its path is here again
-    if (candidate.via != v && labels_[candidate.via] == kNone && !resolve_root(v, candidate.via, decisions)) continue;
-    list.push_back(c);
+    if (candidate.via == v || labels_[candidate.via] != kNone) list.push_back(c);
   }
-  if (list.empty()) {
-    begun_[v] = 0;
-    return false;
-  }
+  if (list.empty()) throw InternalError("vertex " + std::to_string(v) + " is reached by no candidate");
   const bool stands_on_proof = std::all_of(list.begin(), list.end(), [&](std::uint32_t c) {
     const VertexId via = field_.candidates[c].via;
     return via == v || proved_[via] != 0;
@@ -134,7 +199,6 @@ bool Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
   distance_[v] = length(field_.candidates[list.front()], v);
   field_.first_candidate[v] = list.front();
   for (std::size_t i = 0; i < list.size(); ++i) field_.candidates[list[i]].next = i + 1 < list.size() ? list[i + 1] : kNone;
-  return true;
 }
 
 namespace {
@@ -221,28 +285,36 @@ HalfedgeId Resolution::edge_between(VertexId a, VertexId b) const {
 }
 
 Ball<DoubleDouble> Resolution::length(const Candidate& c, VertexId v) {
+  const Ball<DoubleDouble> last = leg(c, v);
+  return c.via == v ? last : distance_[c.via] + last;
+}
+
+Ball<DoubleDouble> Resolution::leg(const Candidate& c, VertexId v) {
   const double unit = predicates::unit<DoubleDouble>(0);
   if (c.via == v) return Ball<DoubleDouble>(std::ldexp(sources_[source_of_vertex_[v]].weight, -frames_.scale()));
   if (c.window == kNone) {
     const DoubleDouble edge = frames_.in_double_double(edge_between(c.via, v)).length;
-    return distance_[c.via] + Ball<DoubleDouble>(edge, predicates::kUnfoldingStep * unit * edge.hi);
+    return Ball<DoubleDouble>(edge, predicates::kUnfoldingStep * unit * edge.hi);
   }
-  const auto& frame = frames_.in_double_double(field_.windows[c.window].halfedge());
-  return distance_[c.via] + predicates::last_leg((*images_)(c.window), frame, unit);
+  return predicates::last_leg((*images_)(c.window), frames_.in_double_double(field_.windows[c.window].halfedge()), unit);
 }
 
 Ball<Mpfr> Resolution::length(const Candidate& c, VertexId v, int bits) const {
+  const Ball<Mpfr> last = leg(c, v, bits);
+  return c.via == v ? last : distance(c.via, bits) + last;
+}
+
+Ball<Mpfr> Resolution::leg(const Candidate& c, VertexId v, int bits) const {
   const double unit = predicates::unit<Mpfr>(bits);
   if (c.via == v) return Ball<Mpfr>(Mpfr(std::ldexp(sources_[source_of_vertex_[v]].weight, -frames_.scale()), bits), 0);
-  const Ball<Mpfr> root = distance(c.via, bits);
   if (c.window == kNone) {
     const HalfedgeId h = edge_between(c.via, v);
     const Mpfr edge = frames_.in_mpfr(Mesh::face(h), bits)[h % 3].length;
-    return root + Ball<Mpfr>(edge, predicates::kUnfoldingStep * unit * edge.to_double());
+    return Ball<Mpfr>(edge, predicates::kUnfoldingStep * unit * edge.to_double());
   }
   const auto at = unfold_mpfr(frames_, strip_of(frames_.mesh(), field_, c.window), bits);
   const HalfedgeId h = field_.windows[c.window].halfedge();
-  return root + predicates::last_leg(at.image, frames_.in_mpfr(Mesh::face(h), bits)[h % 3], unit);
+  return predicates::last_leg(at.image, frames_.in_mpfr(Mesh::face(h), bits)[h % 3], unit);
 }
 
 Ball<Mpfr> Resolution::distance(VertexId v, int bits) const { return length(field_.candidates[field_.first_candidate[v]], v, bits); }

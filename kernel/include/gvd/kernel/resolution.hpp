@@ -87,13 +87,23 @@ class Resolution {
 
  private:
   std::vector<WindowId> windows_of_candidates() const;
-  bool resolve_vertex(VertexId v, predicates::Decisions& decisions);
-  bool resolve_root(VertexId v, VertexId root, predicates::Decisions& decisions);
+  /// Vertices that wait for one another: each may lie behind another one, as far as doubles can tell.
+  using Cluster = std::vector<VertexId>;
+  void resolve_vertex(VertexId v, predicates::Decisions& decisions);
+  bool is_awaited(const Candidate& c, VertexId v) const;
+  bool waits(VertexId v) const;
+  VertexId first_of(const Cluster& cluster, predicates::Decisions& decisions);
+  Cluster cluster_of(VertexId v) const;
+  template <class Lengths>
+  std::optional<VertexId> first_by(const Cluster& cluster, const Lengths& lengths) const;
   std::vector<std::uint32_t> nearest_of(const std::vector<std::uint32_t>& list, VertexId v, predicates::Decisions& decisions);
   /// Empty if the exact lengths are not to be had.
   std::optional<std::vector<std::uint32_t>> nearest_exactly(const std::vector<std::uint32_t>& list, VertexId v) const;
   robust::Ball<robust::DoubleDouble> length(const Candidate& c, VertexId v);
   robust::Ball<robust::Mpfr> length(const Candidate& c, VertexId v, int bits) const;
+  /// Of the last, straight part of the path; from the source itself, its weight.
+  robust::Ball<robust::DoubleDouble> leg(const Candidate& c, VertexId v);
+  robust::Ball<robust::Mpfr> leg(const Candidate& c, VertexId v, int bits) const;
   /// A path to v: the weight of the source, and its straight legs from v backwards.
   struct Leg {
     WindowId window;  ///< kNone: along an edge
@@ -115,7 +125,7 @@ class Resolution {
   LabelSets& sets_;
   std::vector<std::uint32_t> source_of_vertex_;
   std::vector<LabelSetId> labels_;
-  std::vector<std::uint8_t> proved_, begun_;
+  std::vector<std::uint8_t> proved_;
   std::vector<robust::Ball<robust::DoubleDouble>> distance_;
   std::unique_ptr<WindowImages> images_;  // while `resolve` runs
   std::unique_ptr<ExactUnfoldings> exact_;
