@@ -68,6 +68,7 @@ class FieldWaves final : public FacetWaves {
   predicates::StripProgram program_of(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const;
   bool has_relay_on_strip(std::size_t parent, std::size_t relay) const;
+  bool is_image_of_root(const Sides& way, std::size_t relay) const;
   bool has_relay_on_other_way(std::size_t parent, std::size_t relay) const;
   std::optional<Sides> turn_about(HalfedgeId first, bool left, FaceId end) const;
   std::optional<Sides> way_about(const Candidate& way, VertexId v, bool left, FaceId end) const;

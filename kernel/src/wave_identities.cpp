@@ -135,23 +135,32 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
   return has_relay_on_strip(parent, relay) || has_relay_on_other_way(parent, relay);
 }
 
-/// Whether the relay's strip is the end of the parent's, and before that the parent's strip turns about the relay since it arrived
-/// there.
+/// Whether the parent's strip turns about the relay, since it arrived there by the nearest way, and then sees it where the relay's own strip does.
 bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
   const Mesh& mesh = resolution_.frames().mesh();
   const VertexId v = sites[relay].root;
   const auto before = [&](WindowId window) { return field_.windows[window].parent; };
   const auto crossed = [&](WindowId window) { return field_.windows[window].halfedge(); };
+  const auto turns = [&](WindowId window) { return mesh.origin(crossed(window)) == v || mesh.target(crossed(window)) == v; };
+  Sides since;  // it was left
   WindowId w = sites[parent].window;
-  for (WindowId own = sites[relay].window; own != kNone; own = before(own), w = before(w))
-    if (w == kNone || crossed(w) != crossed(own)) return false;
-  for (; w != kNone; w = before(w)) {
-    const HalfedgeId h = crossed(w);
-    if (mesh.apex(h) == v) return resolution_.attains(w, v) || resolution_.is_as_far(w, v);
-    if (mesh.origin(h) != v && mesh.target(h) != v) return false;
-    if (before(w) == kNone) return resolution_.attains_along_edge(sites[parent].root, v);
-  }
-  return false;
+  for (; w != kNone && !turns(w); w = before(w)) since.push_back(mesh.twin(crossed(w)));
+  std::reverse(since.begin(), since.end());
+  if (w == kNone || !is_image_of_root(since, relay)) return false;
+  while (before(w) != kNone && turns(w)) w = before(w);
+  if (turns(w)) return resolution_.attains_along_edge(sites[parent].root, v);
+  if (!resolution_.attains(w, v) && !resolution_.is_as_far(w, v)) return false;
+  for (w = before(w); w != kNone; w = before(w))
+    if (turns(w)) return false;  // it was there before, and saw the relay elsewhere
+  return true;
+}
+
+/// Whether the relay's image is that of its root by another way, which ends in this facet: the same way, or one with only flat vertices between, or by
+/// algebra.
+bool FieldWaves::is_image_of_root(const Sides& way, std::size_t relay) const {
+  if (way.empty() || sites[relay].window == kNone) return way.empty() && sites[relay].window == kNone;
+  const Sides own = sides_of(strip(relay));
+  return way == own || enclose_only_flat(way, own) || have_one_image_by_algebra(way, own);
 }
 
 /// The sides crossed when one turns about a vertex, from the first of them until face `end` is reached.
