@@ -231,8 +231,8 @@ int Contenders::ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) c
       return maybe_sign(cone_side(numbers, wave, end, numbers.sites[relay.site]->image));
     };
     if (side(ladder.filter())) continue;
-    if (ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return side(numbers); }) == Sign::zero)
-      return static_cast<int>(end);
+    if (waves_.is_relay_on_ray(wave.cone_site[end], end, relay.site)) return static_cast<int>(end);
+    if (ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return side(numbers); }) == Sign::zero) return static_cast<int>(end);
   }
   return kNotTangent;
 }

@@ -35,6 +35,7 @@ class FieldWaves final : public FacetWaves {
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
   bool have_one_image(std::size_t left, std::size_t right) override;
   bool share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) override;
+  bool is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) override;
   bool are_proved_one_wave(std::size_t a, std::size_t b) override;
   bool are_mirror_images(std::size_t entering, std::size_t other) override;
   /// Windows in double-double that are known already; it may lack any. Null: none.
@@ -67,7 +68,10 @@ class FieldWaves final : public FacetWaves {
   std::uint8_t side_entered(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_of(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const;
+  std::optional<Sides> sides_since(WindowId strip, VertexId v) const;
+  WindowId arrival(WindowId strip, VertexId v) const;
   bool has_relay_on_strip(std::size_t parent, std::size_t relay) const;
+  bool comes_straight_through(VertexId nearer, VertexId farther, WindowId strip) const;
   bool is_image_of_root(const Sides& way, std::size_t relay) const;
   bool has_relay_on_other_way(std::size_t parent, std::size_t relay) const;
   std::optional<Sides> turn_about(HalfedgeId first, bool left, FaceId end) const;

@@ -57,25 +57,34 @@ bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   return enclose_only_flat(sides_of(strip(left)), sides_of(strip(right)));
 }
 
-/// Both strips must have been beside the vertex once only, and have crossed the same sides since.
+/// The sides that a strip crosses since it turned about a vertex; empty if it never did, or more than once: then it saw the vertex in several places.
+std::optional<FieldWaves::Sides> FieldWaves::sides_since(WindowId strip, VertexId v) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  Sides since;
+  bool turned = false, left = false;
+  for (WindowId w = strip; w != kNone; w = field_.windows[w].parent) {
+    const HalfedgeId h = field_.windows[w].halfedge();
+    const bool turns = mesh.origin(h) == v || mesh.target(h) == v;
+    if (left && turns) return std::nullopt;
+    if (!turned && !turns) since.push_back(mesh.twin(h));
+    left = left || (turned && !turns);
+    turned = turned || turns;
+  }
+  std::reverse(since.begin(), since.end());
+  return turned ? std::optional(std::move(since)) : std::nullopt;
+}
+
+/// The window of a strip that has a vertex as its apex; kNone if the strip begins beside the vertex.
+WindowId FieldWaves::arrival(WindowId strip, VertexId v) const {
+  while (strip != kNone && resolution_.frames().mesh().apex(field_.windows[strip].halfedge()) != v) strip = field_.windows[strip].parent;
+  return strip;
+}
+
 bool FieldWaves::share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) {
   const VertexId v = sites[a].cone[end_a];
   if (v == kNone || sites[b].cone[end_b] != v) return false;
-  const auto since = [&](std::size_t site) {  // the half-edges back to the last one that v is an end of; none if v was left and met again
-    std::vector<HalfedgeId> way;
-    bool beside = false, left = false;
-    for (WindowId w = sites[site].window; w != kNone; w = field_.windows[w].parent) {
-      const HalfedgeId h = field_.windows[w].halfedge();
-      const bool is_end = resolution_.frames().mesh().origin(h) == v || resolution_.frames().mesh().target(h) == v;
-      if (left && is_end) return std::vector<HalfedgeId>();
-      if (!beside) way.push_back(h);
-      left = left || (beside && !is_end);
-      beside = beside || is_end;
-    }
-    return way;
-  };
-  const auto way = since(a);
-  return !way.empty() && way == since(b);
+  const auto since = sides_since(sites[a].window, v);
+  return since && since == sides_since(sites[b].window, v);
 }
 
 bool FieldWaves::are_proved_one_wave(std::size_t a, std::size_t b) {
@@ -135,24 +144,14 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
   return has_relay_on_strip(parent, relay) || has_relay_on_other_way(parent, relay);
 }
 
-/// Whether the parent's strip turns about the relay, since it arrived there by the nearest way, and then sees it where the relay's own strip does.
+/// Whether the parent's strip turns about the relay, which it arrives at by the nearest way, and then sees it where the relay's own strip does.
 bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
-  const Mesh& mesh = resolution_.frames().mesh();
   const VertexId v = sites[relay].root;
-  const auto before = [&](WindowId window) { return field_.windows[window].parent; };
-  const auto crossed = [&](WindowId window) { return field_.windows[window].halfedge(); };
-  const auto turns = [&](WindowId window) { return mesh.origin(crossed(window)) == v || mesh.target(crossed(window)) == v; };
-  Sides since;  // it was left
-  WindowId w = sites[parent].window;
-  for (; w != kNone && !turns(w); w = before(w)) since.push_back(mesh.twin(crossed(w)));
-  std::reverse(since.begin(), since.end());
-  if (w == kNone || !is_image_of_root(since, relay)) return false;
-  while (before(w) != kNone && turns(w)) w = before(w);
-  if (turns(w)) return resolution_.attains_along_edge(sites[parent].root, v);
-  if (!resolution_.attains(w, v) && !resolution_.is_as_far(w, v)) return false;
-  for (w = before(w); w != kNone; w = before(w))
-    if (turns(w)) return false;  // it was there before, and saw the relay elsewhere
-  return true;
+  const auto since = sides_since(sites[parent].window, v);
+  if (!since || !is_image_of_root(*since, relay)) return false;
+  const WindowId w = arrival(sites[parent].window, v);
+  if (w == kNone) return resolution_.attains_along_edge(sites[parent].root, v);
+  return resolution_.attains(w, v) || resolution_.is_as_far(w, v);
 }
 
 /// Whether the relay's image is that of its root by another way, which ends in this facet: the same way, or one with only flat vertices between, or by
@@ -161,6 +160,28 @@ bool FieldWaves::is_image_of_root(const Sides& way, std::size_t relay) const {
   if (way.empty() || sites[relay].window == kNone) return way.empty() && sites[relay].window == kNone;
   const Sides own = sides_of(strip(relay));
   return way == own || enclose_only_flat(way, own) || have_one_image_by_algebra(way, own);
+}
+
+bool FieldWaves::is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) {
+  const WindowId strip = sites[parent].window;
+  const VertexId bound = sites[parent].cone[end], v = sites[relay].root;
+  if (strip == kNone || bound == kNone || !sites[parent].attains_cone[end] || !sides_since(strip, bound)) return false;
+  if (!has_relay_on_strip(parent, relay)) return false;
+  return v == bound || comes_straight_through(v, bound, strip) || comes_straight_through(bound, v, strip);
+}
+
+/// Of two vertices about which a strip turns, both as far from its root as is straight: whether a nearest path to the farther one comes from the nearer
+/// one through the faces of the strip. Then the lengths add up, so the three are on one line.
+bool FieldWaves::comes_straight_through(VertexId nearer, VertexId farther, WindowId strip) const {
+  const WindowId end = arrival(strip, farther);
+  const auto between = sides_since(end, nearer);
+  if (!between) return false;
+  for (std::uint32_t c = field_.first_candidate[farther]; c != kNone; c = field_.candidates[c].next) {
+    const Candidate& way = field_.candidates[c];
+    if (way.via != nearer) continue;
+    if (way.window == kNone ? between->empty() : sides_of(strip_of(resolution_.frames().mesh(), field_, way.window)) == *between) return true;
+  }
+  return false;
 }
 
 /// The sides crossed when one turns about a vertex, from the first of them until face `end` is reached.

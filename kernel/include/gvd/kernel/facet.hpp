@@ -96,6 +96,13 @@ class FacetWaves {
     return false;
   }
 
+  /// Whether the root of `relay`, on the strip of window `parent` (is_own_relay), lies on boundary ray `end` of the parent by identity: the nearest path
+  /// to the farther one of that root and the cone's vertex comes straight through the nearer one. True is a proof, false says nothing.
+  virtual bool is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) {
+    static_cast<void>(parent), static_cast<void>(end), static_cast<void>(relay);
+    return false;
+  }
+
   /// The waves `which`, in their order, in the frame of the last side that the strips of all of them cross together, counting back from the facet:
   /// from there on they are unfolded alike, so whatever holds between them alone is told by fewer and simpler numbers. Empty if they have no side
   /// in common but the facet's own, or no exact numbers.
