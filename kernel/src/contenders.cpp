@@ -203,8 +203,37 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
   if (waves_.is_own_relay(wave.site, relay.site) || waves_.is_own_relay(wave.cone_site[0], relay.site) ||
       waves_.is_own_relay(wave.cone_site[1], relay.site))
     return true;
+  if (const auto closed = is_gap_closed_where_they_part(wave, relay)) return *closed;
   return ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return gap(numbers); }) == Sign::zero &&
          ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return heavier(numbers); }) == Sign::positive;
+}
+
+/// Whether the wave is as far from the relay's image as the weights differ, by the images alone. Empty if that is not to be had.
+std::optional<bool> Contenders::is_gap_closed_where_they_part(const Contender& wave, const Contender& relay) const {
+  const auto sites = where_they_part(std::array{wave.site, relay.site});
+  if (sites.empty()) return std::nullopt;
+  const auto later = sites[1].weight - sites[0].weight;
+  const robust::MaybeSign heavier = maybe_sign(later);
+  if (!heavier) return std::nullopt;
+  if (*heavier != Sign::positive) return false;
+  const robust::MaybeSign gap = maybe_sign(squared_norm(sites[0].image - sites[1].image) - square(later));
+  return gap ? std::optional(*gap == Sign::zero) : std::nullopt;
+}
+
+std::vector<predicates::Site<robust::Exact>> Contenders::where_they_part(std::span<const std::uint32_t> sites) const {
+  for (std::uint8_t side = 0; side < 3; ++side) {
+    std::vector<std::uint32_t> which;
+    for (const std::uint32_t merged : sites)
+      for (std::uint32_t site = 0; site < representative_.size(); ++site) {
+        const bool fits = waves_.sites[site].window == kNone || waves_.sites[site].side == side;
+        if (representative_[site] != merged || !fits) continue;
+        which.push_back(site);
+        break;
+      }
+    if (which.size() != sites.size()) continue;
+    if (auto parted = waves_.where_they_part(which); !parted.empty()) return parted;
+  }
+  return {};
 }
 
 /// Whether a line from the wave's image through the relay's may enter the facet beyond it. The relay lies outside the side that it comes in over, or

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "facet_ladder.hpp"
@@ -79,6 +80,9 @@ class Contenders {
   std::string name(std::size_t i) const;
   /// Per site the one that stands for it: itself, or the lowest of the windows with its image.
   const std::vector<std::uint32_t>& representatives() const { return representative_; }
+  /// FacetWaves::where_they_part for the sites of contenders, each by one of the windows merged in it, over a side that all come over. Empty if there
+  /// is none.
+  std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> sites) const;
 
  private:
   void merge_same_images(FacetLadder& ladder);
@@ -91,6 +95,7 @@ class Contenders {
   void share_eclipses(FacetLadder& ladder);
   bool share_ray(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) const;
   bool finds_eclipse(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
+  std::optional<bool> is_gap_closed_where_they_part(const Contender& wave, const Contender& relay) const;
   bool may_enter_beyond(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   int ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) const;
 

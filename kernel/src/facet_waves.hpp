@@ -86,6 +86,7 @@ class FieldWaves final : public FacetWaves {
   void make_exact();
   HalfedgeId common_side(std::span<const std::uint32_t> which, std::span<const WindowId> windows) const;
   bool step_back(std::vector<WindowId>& windows) const;
+  bool step_over_detours(std::vector<WindowId>& windows) const;
   robust::Exact exact_weight(VertexId root, const robust::Exact& unit) const;
   predicates::Site<robust::Exact> exact_site(const FacetSite& site, const robust::Exact& length) const;
 

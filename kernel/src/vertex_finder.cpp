@@ -192,24 +192,6 @@ bool BisectorVertices::run_tests(const FacetNumbers<NT>& numbers, Stage stage, c
   return true;
 }
 
-/// Each by one of the windows merged in it, over a side that all come over. Empty if there is none.
-std::vector<predicates::Site<robust::Exact>> BisectorVertices::where_they_part(std::span<const std::uint32_t> waves) const {
-  const auto& representatives = contenders_.representatives();
-  for (std::uint8_t side = 0; side < 3; ++side) {
-    std::vector<std::uint32_t> which;
-    for (const std::uint32_t wave : waves)
-      for (std::uint32_t site = 0; site < representatives.size(); ++site) {
-        const bool fits = waves_.sites[site].window == kNone || waves_.sites[site].side == side;
-        if (representatives[site] != contenders_[wave].site || !fits) continue;
-        which.push_back(site);
-        break;
-      }
-    if (which.size() != waves.size()) continue;
-    if (auto sites = waves_.where_they_part(which); !sites.empty()) return sites;
-  }
-  return {};
-}
-
 /// What the images alone decide, in the frame where their strips part: whether there is a vertex (if not, the result is false), and which
 /// rivals conflict.
 bool BisectorVertices::settle_where_they_part(const Triple& t) {
@@ -218,11 +200,12 @@ bool BisectorVertices::settle_where_they_part(const Triple& t) {
     if (what != kExistence && what < kRivals) continue;
     std::vector<std::uint32_t> waves(t.waves.begin(), t.waves.end());
     if (what != kExistence) waves.push_back(what - kRivals);
-    const auto sites = where_they_part(waves);
+    for (std::uint32_t& wave : waves) wave = contenders_[wave].site;
+    const auto sites = contenders_.where_they_part(waves);
     if (sites.empty()) continue;
     FacetNumbers<robust::Exact> numbers;
     numbers.sites.assign(waves_.sites.size(), nullptr);
-    for (std::size_t n = 0; n < waves.size(); ++n) numbers.sites[contenders_[waves[n]].site] = &sites[n];
+    for (std::size_t n = 0; n < waves.size(); ++n) numbers.sites[waves[n]] = &sites[n];
     const auto vertex = construct(numbers, t);
     if (vertex.existence == Existence::impossible) {
       ladder_.count(predicate_of(what), Stage::algebra);

@@ -67,7 +67,6 @@ class BisectorVertices {
   template <class NT>
   Verdict conflict(const FacetNumbers<NT>& numbers, const Triple& triple, const predicates::BisectorVertex<NT>& vertex,
                    const predicates::PlanePoint<NT>& p, std::uint32_t rival) const;
-  std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> waves) const;
   bool settle_where_they_part(const Triple& triple);
   bool add_eclipsed_ties(const Triple& triple, const FacetTessellation::Node& node);
   FacetTessellation::Node node_of(const Triple& triple) const;

@@ -259,13 +259,44 @@ bool FieldWaves::step_back(std::vector<WindowId>& windows) const {
   return true;
 }
 
+/// Goes back to the last side, before those where they are, that the strips of all cross, if every strip sees its root from there where the first one's way
+/// would show it. False if there is no such side.
+bool FieldWaves::step_over_detours(std::vector<WindowId>& windows) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  if (std::find(windows.begin(), windows.end(), kNone) != windows.end()) return false;
+  const auto crossing = [&](WindowId w, HalfedgeId h) {
+    while (w != kNone && field_.windows[w].halfedge() != h) w = field_.windows[w].parent;
+    return w;
+  };
+  const auto way_to = [&](WindowId w) { return sides_of(strip_of(mesh, field_, w)); };
+  const Sides first = way_to(windows[0]);
+  for (WindowId w = field_.windows[windows[0]].parent; w != kNone; w = field_.windows[w].parent) {
+    std::vector<WindowId> met{w};
+    for (std::size_t n = 1; n < windows.size() && met.back() != kNone; ++n) met.push_back(crossing(windows[n], field_.windows[w].halfedge()));
+    if (met.back() == kNone) continue;
+    const std::size_t shared = way_to(w).size();
+    const bool alike = std::equal(windows.begin() + 1, windows.end(), met.begin() + 1, [&](WindowId window, WindowId there) {
+      const Sides own = way_to(window);
+      Sides way = way_to(there);
+      way.insert(way.end(), first.begin() + static_cast<std::ptrdiff_t>(shared), first.end());
+      return own == way || enclose_only_flat(own, way) || have_one_image_by_algebra(own, way);
+    });
+    if (!alike) return false;
+    windows = std::move(met);
+    return true;
+  }
+  return false;
+}
+
 std::vector<predicates::Site<Exact>> FieldWaves::where_they_part(std::span<const std::uint32_t> which) {
   std::vector<WindowId> at, back;  // kNone: a corner
   for (const std::uint32_t i : which) back.push_back(sites[i].window);
   HalfedgeId base = kNone;
-  for (HalfedgeId h = common_side(which, back); h != kNone; h = step_back(back) ? common_side(which, back) : kNone) {
+  for (HalfedgeId h = common_side(which, back); h != kNone;) {
     base = h;
     at = back;
+    h = step_back(back) ? common_side(which, back) : kNone;
+    if (h == kNone && step_over_detours(back = at)) h = common_side(which, back);
   }
   if (base == kNone || Mesh::face(base) == face) return {};
   const Frames& frames = resolution_.frames();

@@ -103,9 +103,9 @@ class FacetWaves {
     return false;
   }
 
-  /// The waves `which`, in their order, in the frame of the last side that the strips of all of them cross together, counting back from the facet:
-  /// from there on they are unfolded alike, so whatever holds between them alone is told by fewer and simpler numbers. Empty if they have no side
-  /// in common but the facet's own, or no exact numbers.
+  /// The waves `which`, in their order, in the frame of the last side that the strips of all of them cross, counting back from the facet, if from there on
+  /// they unfold what is behind alike: whatever holds between them alone is told by fewer and simpler numbers. Empty if they have no such side but the
+  /// facet's own, or no exact numbers.
   virtual std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> which) {
     static_cast<void>(which);
     return {};
