@@ -57,12 +57,14 @@ bool Contenders::may_have_one_image(const FacetLadder& ladder, const Contender& 
   return !separated(ladder.filter().sites[left.site]->image, ladder.filter().sites[right.site]->image);
 }
 
-/// Pre: doubles do not separate the images. The image is one for windows that pass a flat corner of the facet on either side: identity.
-/// Elsewhere it takes the exact numbers.
+/// Pre: doubles do not separate the images. The image is one for windows that come to a flat corner of the facet by one path and pass it on either
+/// side: identity. That both attain the corner is not enough, since two geodesics to it may differ by less than doubles can tell. Elsewhere it takes
+/// the exact numbers.
 bool Contenders::same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const bool round_corner = left.cone[1] == waves_.corner[k] && right.cone[0] == waves_.corner[k];
-    if (round_corner && waves_.corner_is_flat[k] && left.ties_at_corner(right, k)) {
+    const bool one_path = left.path_to_corner[k] != FacetSite::kNoPath && left.path_to_corner[k] == right.path_to_corner[k];
+    if (round_corner && waves_.corner_is_flat[k] && one_path) {
       ladder.count(Predicate::edge_tie, robust::Stage::identity);
       return true;
     }

@@ -205,12 +205,12 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
 }
 
 /// Along a side, mirror images in it are as far: `from` and `to`, or mirror images of them which are tangent or one of which eclipses
-/// the other.
+/// the other. If `from` and `to` are mirror images themselves, they tie all along, whatever else has an image where they have theirs.
 std::array<std::uint32_t, 2> OutlineWalk::twins_that_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const {
   const auto touch = [&](std::uint32_t i, std::uint32_t j) {
     return contenders_.tangent(i, j) || contenders_.eclipses(i, j) || contenders_.eclipses(j, i);
   };
-  if (touch(from, to)) return {from, to};
+  if (touch(from, to) || contenders_.mirrored(from, to, side) != Sign::zero) return {from, to};
   const auto stands_for = [&](std::uint32_t i, std::uint32_t j) { return i != from && i != to && contenders_.mirrored(i, j, side) != Sign::zero; };
   for (std::uint32_t i = 0; i < contenders_.size(); ++i)
     if (touch(i, to) && stands_for(i, from)) return {i, to};

@@ -44,8 +44,8 @@ class FacetWaves {
   FaceId face = kNone;
   std::array<VertexId, 3> corner{};          ///< vertices of the refined mesh
   std::array<LabelSetId, 3> corner_labels{};  ///< exact label sets of the corners
-  /// Whether the total angle at corner k is exactly 2 pi (interior) or pi (boundary): then two windows of the same root that pass it on
-  /// either side and both attain it have the same image.
+  /// Whether the total angle at corner k is exactly 2 pi (interior) or pi (boundary): then two windows that come to it by one path and pass it on
+  /// either side have the same image.
   std::array<bool, 3> corner_is_flat{};
   std::vector<FacetSite> sites;
 
