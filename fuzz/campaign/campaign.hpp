@@ -33,6 +33,9 @@ Tally run_campaign(const CampaignOptions& options);
 std::string write_finding(const Case& c, std::uint64_t seed, const std::string& property, const std::string& what,
                           const std::string& folder, double shrink_seconds);
 
+/// Writes a case with its seed, for `replay`.
+void save_case(const Case& c, std::uint64_t seed, const std::string& file);
+
 /// Looks at a written case again: at the property it names, or at all. Returns the result.
 CaseResult replay(const std::string& file, Choice choice);
 

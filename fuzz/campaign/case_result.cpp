@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -11,26 +11,27 @@
 namespace gvd::fuzz {
 namespace {
 
-/// So many of the properties that need further solutions are drawn for each case.
-constexpr std::size_t kDrawn = 2;
-
 std::vector<const Property*> chosen(const Choice& choice, std::uint64_t seed) {
-  std::vector<const Property*> always, costly;
-  for (const Property& p : properties()) {
-    if (!choice.only.empty() && choice.only != p.name) continue;
-    (p.solves && choice.only.empty() && !choice.thorough ? costly : always).push_back(&p);
-  }
-  Draw draw(mixed_seed(seed, 0x9a7));
-  for (std::size_t i = 0; i < kDrawn && !costly.empty(); ++i) {
-    const std::size_t at = draw.below(static_cast<std::uint32_t>(costly.size()));
-    always.push_back(costly[at]);
-    costly.erase(costly.begin() + static_cast<std::ptrdiff_t>(at));
-  }
-  return always;
+  const auto is_drawn = [&](const Property& p) { return Draw(mixed_seed(seed, 0x9a7 + std::uint64_t{p.one_in})).one_in(p.one_in); };
+  std::vector<const Property*> list;
+  for (const Property& p : properties())
+    if (choice.only.empty() ? choice.thorough || is_drawn(p) : choice.only == p.name) list.push_back(&p);
+  return list;
 }
 
+/// Milliseconds of CPU since it was made: other programs on the machine do not count.
+class Stopwatch {
+ public:
+  double milliseconds() const { return 1000.0 * static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+
+ private:
+  std::clock_t start_ = std::clock();
+};
+
 void look(Trial& trial, const Property& property, CaseResult& result) {
+  const Stopwatch watch;
   const Outcome outcome = check(property, trial);
+  result.cost[property.name] = watch.milliseconds();
   switch (outcome.kind) {
     case Outcome::Kind::violated:
       result.violated[property.name] = outcome.what;
@@ -74,7 +75,7 @@ std::string to_line(const CaseResult& r) {
   const nlohmann::ordered_json line = {
       {"version", r.version}, {"seed", r.seed},           {"family", r.family},  {"faces", r.faces},       {"sources", r.sources},
       {"status", r.status},   {"undecided", r.undecided}, {"tags", r.tags},      {"violated", r.violated}, {"held", r.held},
-      {"open", r.open},       {"skipped", r.skipped},     {"ms", r.milliseconds}};
+      {"open", r.open},       {"skipped", r.skipped},     {"ms", r.milliseconds}, {"cost", r.cost}};
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -95,6 +96,7 @@ CaseResult parse_line(const std::string& text) {
     line.at("open").get_to(r.open);
     line.at("skipped").get_to(r.skipped);
     line.at("ms").get_to(r.milliseconds);
+    line.at("cost").get_to(r.cost);
     return r;
   } catch (const nlohmann::json::exception& e) {
     throw InputError(std::string("not a line of results: ") + e.what());
@@ -102,7 +104,7 @@ CaseResult parse_line(const std::string& text) {
 }
 
 CaseResult run_case(const Case& c, std::uint64_t seed, const Choice& choice) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   CaseResult result;
   result.seed = seed;
   result.family = c.family;
@@ -111,6 +113,7 @@ CaseResult run_case(const Case& c, std::uint64_t seed, const Choice& choice) {
   try {
     Trial trial(c, seed);
     describe(trial, result);
+    result.cost["solve"] = watch.milliseconds();
     for (const Property* property : chosen(choice, seed)) look(trial, *property, result);
   } catch (const TookTooLong&) {
     result.status = "too_long";
@@ -118,12 +121,18 @@ CaseResult run_case(const Case& c, std::uint64_t seed, const Choice& choice) {
     result.status = "threw";
     result.violated["solves"] = e.what();
   }
-  result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  result.milliseconds = watch.milliseconds();
   return result;
 }
 
 CaseResult run_case(std::uint64_t seed, const Wish& wish, const Choice& choice) {
-  return run_case(make_case(seed, wish), seed, choice);
+  const Stopwatch watch;
+  const Case c = make_case(seed, wish);
+  const double made = watch.milliseconds();
+  CaseResult result = run_case(c, seed, choice);
+  result.cost["make"] = made;
+  result.milliseconds += made;
+  return result;
 }
 
 }  // namespace gvd::fuzz

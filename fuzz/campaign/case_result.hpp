@@ -21,7 +21,8 @@ struct CaseResult {
   std::vector<std::string> tags;
   std::map<std::string, std::string> violated;   ///< property -> what was found
   std::vector<std::string> held, open, skipped;  ///< properties
-  double milliseconds = 0;
+  double milliseconds = 0;                       ///< of CPU, all threads together
+  std::map<std::string, double> cost;            ///< property, or "make" and "solve" -> its share of that
   bool operator==(const CaseResult&) const = default;
 };
 
@@ -33,7 +34,7 @@ CaseResult parse_line(const std::string& text);
 /// Which properties a case is put to.
 struct Choice {
   std::string only;       ///< one of them; empty: all
-  bool thorough = false;  ///< all that need further solutions too; else some of those are drawn
+  bool thorough = false;  ///< all of them on every case, whatever their rates
 };
 
 /// Makes the case of a seed and looks at its properties.

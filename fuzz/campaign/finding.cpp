@@ -44,6 +44,12 @@ std::string write_finding(const Case& c, std::uint64_t seed, const std::string& 
   return file;
 }
 
+void save_case(const Case& c, std::uint64_t seed, const std::string& file) {
+  std::ofstream out(file, std::ios::binary);
+  out << case_text(c, {"seed " + std::to_string(seed), "replay: gvd fuzz --replay " + file});
+  if (!out.flush()) throw InternalError(file + ": cannot be written");
+}
+
 CaseResult replay(const std::string& file, Choice choice) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file + ": cannot be read");

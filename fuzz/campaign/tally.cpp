@@ -22,6 +22,7 @@ void Tally::add(const CaseResult& r) {
   for (const auto& property : r.held) ++properties_[property].held;
   for (const auto& property : r.open) ++properties_[property].open;
   for (const auto& property : r.skipped) ++properties_[property].skipped;
+  for (const auto& [part, milliseconds] : r.cost) cost_[part] += milliseconds;
   auto& family = families_[r.family];
   ++family.cases;
   family.undecided += r.status == "undecided" ? 1 : 0;
@@ -42,14 +43,26 @@ std::vector<std::string> Tally::empty_classes() const {
   return empty;
 }
 
+/// What the parts of a case cost, spread over all cases; the dearest first.
+std::string Tally::cost_table() const {
+  std::vector<std::pair<double, std::string>> parts;
+  for (const auto& [part, milliseconds] : cost_) parts.emplace_back(milliseconds, part);
+  std::sort(parts.rbegin(), parts.rend());
+  std::string text = fmt::format("\n{:<34} {:>9} {:>9}\n", "cost", "ms a case", "of all");
+  for (const auto& [milliseconds, part] : parts)
+    text += fmt::format("{:<34} {:>9.3f} {:>7.2f} %\n", part, milliseconds / static_cast<double>(cases_), 100 * milliseconds / milliseconds_);
+  return text;
+}
+
 std::string Tally::text() const {
   const double cases = static_cast<double>(std::max<std::uint64_t>(cases_, 1));
-  std::string text = fmt::format("{} cases, {:.2f} ms each\n", cases_, milliseconds_ / cases);
+  std::string text = fmt::format("{} cases, {:.2f} ms of CPU each\n", cases_, milliseconds_ / cases);
   for (const auto& [status, n] : status_)
     text += fmt::format("  {:<40} {:>9}  {:6.2f} %\n", status, n, 100 * static_cast<double>(n) / cases);
   text += fmt::format("\n{:<34} {:>9} {:>9} {:>9} {:>9}\n", "property", "held", "violated", "open", "skipped");
   for (const auto& [name, c] : properties_)
     text += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>9}\n", name, c.held, c.violated, c.open, c.skipped);
+  text += cost_table();
   text += fmt::format("\n{:<34} {:>9}\n", "class", "cases");
   for (const auto& [tag, n] : tags_) text += fmt::format("{:<34} {:>9}\n", tag, n);
   text += fmt::format("\n{:<34} {:>9} {:>9} {:>9}\n", "family", "cases", "undecided", "ms each");

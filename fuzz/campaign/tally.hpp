@@ -22,6 +22,8 @@ class Tally {
   std::string text() const;
 
  private:
+  std::string cost_table() const;
+
   struct Counts {
     std::uint64_t held = 0, violated = 0, open = 0, skipped = 0;
   };
@@ -33,6 +35,7 @@ class Tally {
   double milliseconds_ = 0;
   std::map<std::string, std::uint64_t> status_, tags_, undecided_;
   std::map<std::string, Counts> properties_;
+  std::map<std::string, double> cost_;  ///< property, or "make" and "solve" -> milliseconds
   std::map<std::string, FamilyCounts> families_;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,9 @@ namespace gvd::fuzz {
 struct FuzzArguments {
   CampaignOptions campaign;
   AgainstOptions against;
-  std::string replay;
+  std::string replay, save;
+  std::optional<std::uint64_t> one_case;
+  double most_undecided = 100;  ///< per cent
   std::vector<std::string> merge;
   bool list = false, json = false;
 };

@@ -211,12 +211,12 @@ Outcome cells_are_connected(Trial& t) {
 }
 
 constexpr std::array<Property, 4> kProperties = {{
-    {"pieces_partition_their_facet", pieces_partition_their_facet, false,
+    {"pieces_partition_their_facet", pieces_partition_their_facet, 1,
      "the pieces of a facet go once round it and lie on both sides of every arc"},
-    {"euler", euler, false, "vertices less edges plus faces of the diagram is that of the mesh"},
-    {"bisector_points_are_equidistant", bisector_points_are_equidistant, false,
+    {"euler", euler, 1, "vertices less edges plus faces of the diagram is that of the mesh"},
+    {"bisector_points_are_equidistant", bisector_points_are_equidistant, 1,
      "the ends of an arc are equally far from both its images, within enclosures"},
-    {"cells_are_connected", cells_are_connected, false, "a cell hangs together and holds its source"},
+    {"cells_are_connected", cells_are_connected, 1, "a cell hangs together and holds its source"},
 }};
 
 }  // namespace

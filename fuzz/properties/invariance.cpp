@@ -88,11 +88,12 @@ std::array<int, 2> exponents(const Case& c) {
   return range;
 }
 
-/// Times a power of two at which no number gets subnormal or too large.
+/// Times a power of two at which no number gets subnormal or too large. Seldom so far that squares do: then most is decided in exact numbers.
 Altered rescaled(Draw& draw, const Case& c) {
   const auto [low, high] = exponents(c);
+  const int farthest = draw.one_in(10) ? 900 : 400;
   Altered out(c);
-  out.scale = draw.between(std::min(0, -900 - low), std::max(0, 900 - high));
+  out.scale = draw.between(std::min(0, -farthest - low), std::max(0, farthest - high));
   for (auto& p : out.problem.mesh.points)
     for (double& x : p) x = std::ldexp(x, out.scale);
   for (Place& s : out.problem.sources) s.weight = std::ldexp(s.weight, out.scale);
@@ -174,10 +175,10 @@ Outcome power_of_two_scaling(Trial& t) {
 Outcome threads(Trial& t) { return same_results(t, Altered(t.problem()), 3); }
 
 constexpr std::array<Property, 4> kProperties = {{
-    {"renumbering", renumbering, true, "renumbering and turning faces changes nothing, bit for bit"},
-    {"axis_permutation", axis_permutation, true, "nor does permuting the axes"},
-    {"power_of_two_scaling", power_of_two_scaling, true, "nor scaling by a power of two"},
-    {"threads", threads, true, "nor the number of threads"},
+    {"renumbering", renumbering, 14, "renumbering and turning faces changes nothing, bit for bit"},
+    {"axis_permutation", axis_permutation, 15, "nor does permuting the axes"},
+    {"power_of_two_scaling", power_of_two_scaling, 16, "nor scaling by a power of two"},
+    {"threads", threads, 30, "nor the number of threads"},
 }};
 
 }  // namespace

@@ -89,10 +89,10 @@ Outcome faces_have_their_label(Trial& t) {
 }
 
 constexpr std::array<Property, 3> kProperties = {{
-    {"faces_have_their_label", faces_have_their_label, false, "the label of a face is that of the points inside it"},
-    {"labels_at_vertices", labels_at_vertices, true,
+    {"faces_have_their_label", faces_have_their_label, 1, "the label of a face is that of the points inside it"},
+    {"labels_at_vertices", labels_at_vertices, 8,
      "a vertex has the least distance of all single-source runs, and is labelled by those"},
-    {"labels_inside_facets", labels_inside_facets, true, "so has any point of a facet or an edge"},
+    {"labels_inside_facets", labels_inside_facets, 8, "so has any point of a facet or an edge"},
 }};
 
 }  // namespace

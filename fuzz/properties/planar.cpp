@@ -165,9 +165,9 @@ Outcome dual_is_the_clipped_delaunay(Trial& t) {
 }
 
 constexpr std::array<Property, 2> kProperties = {{
-    {"distances_are_planar", distances_are_planar, false,
+    {"distances_are_planar", distances_are_planar, 3,
      "on a surface that unfolds to a convex region, D and labels are those of the plane"},
-    {"dual_is_the_clipped_delaunay", dual_is_the_clipped_delaunay, false,
+    {"dual_is_the_clipped_delaunay", dual_is_the_clipped_delaunay, 3,
      "and the dual is those Delaunay edges and triangles whose Voronoi edge or vertex lies in the region"},
 }};
 

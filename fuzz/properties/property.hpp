@@ -27,7 +27,7 @@ inline Outcome skipped() { return {Outcome::Kind::skipped, {}}; }
 struct Property {
   const char* name;
   Outcome (*check)(Trial& trial);
-  bool solves;  ///< needs further solutions: costs as much as the case itself, or several times that
+  std::uint32_t one_in;  ///< looked at in one of so many cases, the more it costs the fewer; those of one rate in the same ones, which share solutions
   const char* says;
 };
 

@@ -146,9 +146,9 @@ Outcome flipping_a_coplanar_diagonal(Trial& t) {
 }
 
 constexpr std::array<Property, 3> kProperties = {{
-    {"splitting_a_face", splitting_a_face, true, "a further vertex inside a face changes no distance"},
-    {"splitting_an_edge", splitting_an_edge, true, "nor does one inside an edge"},
-    {"flipping_a_coplanar_diagonal", flipping_a_coplanar_diagonal, true, "nor the other diagonal of a plane quadrilateral"},
+    {"splitting_a_face", splitting_a_face, 10, "a further vertex inside a face changes no distance"},
+    {"splitting_an_edge", splitting_an_edge, 10, "nor does one inside an edge"},
+    {"flipping_a_coplanar_diagonal", flipping_a_coplanar_diagonal, 10, "nor the other diagonal of a plane quadrilateral"},
 }};
 
 }  // namespace

@@ -202,9 +202,9 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
   };
   if (predicates::certainly_apart(ladder.doubles()[wave.site], ladder.doubles()[relay.site])) return false;
   if (wave.root == relay.root || gap(ladder.filter()) || heavier(ladder.filter()) == Sign::negative) return false;
-  if (waves_.is_own_relay(wave.site, relay.site) || waves_.is_own_relay(wave.cone_site[0], relay.site) ||
-      waves_.is_own_relay(wave.cone_site[1], relay.site))
-    return true;
+  const std::array<std::uint32_t, 3> parts = {wave.site, wave.cone_site[0], wave.cone_site[1]};  // different ones if merged
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (std::find(parts.begin(), parts.begin() + i, parts[i]) == parts.begin() + i && waves_.is_own_relay(parts[i], relay.site)) return true;
   if (const auto closed = is_gap_closed_where_they_part(wave, relay)) return *closed;
   return ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return gap(numbers); }) == Sign::zero &&
          ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return heavier(numbers); }) == Sign::positive;

@@ -315,7 +315,7 @@ void FieldWaves::make_exact() {
   Precise& p = *precise_;
   const Frames& frames = resolution_.frames();
   const predicates::RootPoint apex = exact_apex(frames, 3 * face);
-  const Exact length = sqrt(Exact(frames.exact(face).squared[0]));
+  const Exact length = sqrt(Exact(frames.exact(face)->squared[0]));
   p.exact_frame = std::make_unique<predicates::FacetFrame<Exact>>();
   p.exact_frame->apex = {Exact(apex.x), Exact(apex.y)};
   p.exact_frame->length = length.scaled(frames.scale());

@@ -64,6 +64,8 @@ class FieldWaves final : public FacetWaves {
   using Sides = std::vector<HalfedgeId>;
   static Sides sides_of(const predicates::Strip& strip);
   bool enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
+  predicates::Disc<robust::DoubleDouble> image_of(std::span<const HalfedgeId> sides) const;
+  bool have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   bool have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   std::uint8_t side_entered(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_of(std::span<const HalfedgeId> sides) const;

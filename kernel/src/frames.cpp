@@ -125,7 +125,7 @@ const predicates::EdgeFrame<DoubleDouble>& Frames::in_double_double(HalfedgeId h
 
 std::array<predicates::EdgeFrame<Mpfr>, 3> Frames::in_mpfr(FaceId f, int bits) const { return make<Mpfr>(f, bits + 8); }
 
-ExactFace Frames::exact(FaceId f) const {
+ExactFace Frames::make_exact(FaceId f) const {
   std::array<ExactPoint, 3> side;
   for (unsigned k = 0; k < 3; ++k) {
     const ExactPoint p = mesh_.exact_point(mesh_.origin(3 * f + k)), q = mesh_.exact_point(mesh_.target(3 * f + k));
@@ -134,28 +134,43 @@ ExactFace Frames::exact(FaceId f) const {
   return predicates::exact_face(side);
 }
 
-std::shared_ptr<const Frames::RootFrames> Frames::in_roots(FaceId f) const {
-  std::call_once(allocate_roots_, [&] { roots_ = std::vector<RootSlot>(std::min<std::size_t>(kMostRootSlots, mesh_.face_count())); });
-  RootSlot& slot = roots_[f % roots_.size()];
+std::shared_ptr<const Frames::Exactly> Frames::exactly(FaceId f) const {
+  std::call_once(allocate_exact_, [&] { exact_ = std::vector<ExactSlot>(std::min<std::size_t>(kMostExactSlots, mesh_.face_count())); });
+  ExactSlot& slot = exact_[f % exact_.size()];
   const std::scoped_lock lock(slot.mutex);
   if (slot.face != f) {
-    const ExactFace face = exact(f);
-    const robust::RootSum area = [&] {
+    auto made = std::make_shared<Exactly>();
+    const ExactFace& face = made->program.face = make_exact(f);
+    {
       const std::scoped_lock classes(classes_.mutex);
-      return classes_.list.root(face.radicand);
-    }();
-    auto frames = std::make_shared<RootFrames>();
-    for (std::size_t k = 0; k < 3; ++k) (*frames)[k] = predicates::root_frame(face, k, area);
-    slot.frames = std::move(frames);
+      made->program.doubled_area = classes_.list.root(face.radicand);
+    }
+    for (std::size_t k = 0; k < 3; ++k) made->frames[k] = predicates::root_frame(face, k, made->program.doubled_area);
+    slot.numbers = std::move(made);
     slot.face = f;
   }
-  return slot.frames;
+  return slot.numbers;
+}
+
+std::shared_ptr<const ExactFace> Frames::exact(FaceId f) const {
+  auto numbers = exactly(f);
+  return {numbers, &numbers->program.face};
+}
+
+std::shared_ptr<const predicates::ProgramFace> Frames::for_program(FaceId f) const {
+  auto numbers = exactly(f);
+  return {numbers, &numbers->program};
+}
+
+std::shared_ptr<const Frames::RootFrames> Frames::in_roots(FaceId f) const {
+  auto numbers = exactly(f);
+  return {numbers, &numbers->frames};
 }
 
 std::uint32_t Frames::square_class(FaceId f) const {
   const std::scoped_lock lock(classes_.mutex);
   if (classes_.of_face.empty()) classes_.of_face.assign(mesh_.face_count(), kNone);
-  if (classes_.of_face[f] == kNone) classes_.of_face[f] = classes_.list(exact(f).radicand);
+  if (classes_.of_face[f] == kNone) classes_.of_face[f] = classes_.list(make_exact(f).radicand);
   return classes_.of_face[f];
 }
 

@@ -138,7 +138,7 @@ class NearestSearch {
     const auto distance = resolution_.exact_distance(site.root);
     if (!distance) return std::nullopt;
     const RootSum x = p.x - image.x, y = p.y - image.y;
-    return (*distance + sqrt(Exact((x * x + y * y) * frames.exact(waves_.face).squared[side]))).scaled(frames.scale());
+    return (*distance + sqrt(Exact((x * x + y * y) * frames.exact(waves_.face)->squared[side]))).scaled(frames.scale());
   }
 
   const Resolution& resolution_;

@@ -351,14 +351,14 @@ std::optional<Resolution::Path> Resolution::exact_path(const Candidate& candidat
 std::optional<RootSum> Resolution::squared_leg(const Candidate& c, VertexId v) const {
   if (c.window == kNone) {
     const HalfedgeId h = edge_between(c.via, v);
-    return RootSum(frames_.exact(Mesh::face(h)).squared[h % 3]);
+    return RootSum(frames_.exact(Mesh::face(h))->squared[h % 3]);
   }
   const auto at = exact_unfolding(c.window);
   if (!at) return std::nullopt;
   const HalfedgeId h = field_.windows[c.window].halfedge();
   const predicates::RootPoint apex = exact_apex(frames_, h);
   const RootSum x = at->image.x - apex.x, y = at->image.y - apex.y;
-  return (x * x + y * y) * frames_.exact(Mesh::face(h)).squared[h % 3];
+  return (x * x + y * y) * frames_.exact(Mesh::face(h))->squared[h % 3];
 }
 
 /// The sum of roots where both have one, which is quick; otherwise the span test on the strips.
@@ -368,7 +368,7 @@ bool Resolution::are_equal(const Leg& a, const Leg& b) const {
   if (a.window == kNone || b.window == kNone) return false;
   const auto program = [&](WindowId window) {
     const HalfedgeId h = field_.windows[window].halfedge();
-    return strip_program(frames_, strip_of(frames_.mesh(), field_, window)).squared_distance_to_apex(program_face(frames_, Mesh::face(h)), h % 3);
+    return strip_program(frames_, strip_of(frames_.mesh(), field_, window)).squared_distance_to_apex(*frames_.for_program(Mesh::face(h)), h % 3);
   };
   return robust::are_proved_equal(program(a.window), program(b.window));
 }
@@ -390,13 +390,38 @@ bool Resolution::attains_along_edge(VertexId via, VertexId v) const noexcept {
   return false;
 }
 
+namespace {
+bool may_vanish(const Ball<DoubleDouble>& x) { return maybe_sign(x).value_or(robust::Sign::zero) == robust::Sign::zero; }
+}  // namespace
+
+Ball<DoubleDouble> Resolution::enclosed_leg(const Candidate& c, VertexId v) const {
+  constexpr double unit = robust::kDoubleDoubleQuotientError;
+  if (c.window == kNone) return predicates::enclosed_length(frames_.in_double_double(edge_between(c.via, v)), unit);
+  const auto frame = [&](HalfedgeId h) -> const auto& { return frames_.in_double_double(h); };
+  const auto at = predicates::unfold<DoubleDouble, false>(strip_of(frames_.mesh(), field_, c.window), frame);
+  return predicates::last_leg(at.image, frame(field_.windows[c.window].halfedge()), unit);
+}
+
 bool Resolution::is_as_far(WindowId window, VertexId v) const {
+  enum : std::uint8_t { unknown, no, yes };
+  std::call_once(allocate_as_far_, [&] { as_far_ = std::vector<std::atomic<std::uint8_t>>(field_.windows.size()); });
+  std::atomic<std::uint8_t>& known = as_far_[window];
+  if (known.load(std::memory_order_relaxed) == unknown)
+    known.store(proves_as_far(window, v) ? yes : no, std::memory_order_relaxed);
+  return known.load(std::memory_order_relaxed) == yes;
+}
+
+bool Resolution::proves_as_far(WindowId window, VertexId v) const {
   const auto leg_of = [&](const Candidate& c) { return Leg{c.window, c.via, v, squared_leg(c, v)}; };
   Candidate through{};
   through.window = window;
   through.via = field_.windows[window].root;
-  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next)
-    if (field_.candidates[c].via == through.via && are_equal(leg_of(through), leg_of(field_.candidates[c]))) return true;
+  const Ball<DoubleDouble> enclosed = enclosed_leg(through, v);
+  for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
+    const Candidate& other = field_.candidates[c];
+    if (other.via != through.via || !may_vanish(enclosed - enclosed_leg(other, v))) continue;
+    if (are_equal(leg_of(through), leg_of(other))) return true;
+  }
   return false;
 }
 

@@ -55,12 +55,7 @@ predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h) {
 }
 
 predicates::StripProgram strip_program(const Frames& frames, const Strip& strip) {
-  return predicates::strip_program(strip, [&](HalfedgeId h) { return program_face(frames, Mesh::face(h)); });
-}
-
-predicates::ProgramFace program_face(const Frames& frames, FaceId f) {
-  const predicates::ExactFace face = frames.exact(f);
-  return {face, (*frames.in_roots(f))[0].y * face.squared[0]};
+  return predicates::strip_program(strip, [&](HalfedgeId h) { return *frames.for_program(Mesh::face(h)); });
 }
 
 }  // namespace gvd::kernel

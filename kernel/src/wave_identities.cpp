@@ -6,7 +6,10 @@
 
 namespace gvd::kernel {
 
+using predicates::Disc;
 using predicates::Strip;
+using robust::Ball;
+using robust::DoubleDouble;
 using robust::Exact;
 
 /// The sides that a strip crosses, from its root on; each in the face that is left.
@@ -92,8 +95,34 @@ bool FieldWaves::are_proved_one_wave(std::size_t a, std::size_t b) {
   return have_one_image_by_algebra(sides_of(strip(a)), sides_of(strip(b)));
 }
 
+/// The image of a strip's root, in the frame of the last side as the facet beyond it sees it.
+Disc<DoubleDouble> FieldWaves::image_of(std::span<const HalfedgeId> sides) const {
+  const Frames& frames = resolution_.frames();
+  const double unit = predicates::unit<DoubleDouble>(0);
+  Disc<DoubleDouble> image = predicates::unfold_first(frames.in_double_double(sides[0]), unit).image;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const bool left = sides[i] == Mesh::prev(frames.mesh().twin(sides[i - 1]));
+    image = predicates::cross(image, frames.in_double_double(sides[i]), left, unit);
+  }
+  return image;
+}
+
+/// Whether double-doubles tell the images apart. As in `have_one_image_by_algebra`.
+bool FieldWaves::have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+  const auto certainly_differ = [](const auto& x, const auto& y) { return maybe_sign(x - y).value_or(robust::Sign::zero) != robust::Sign::zero; };
+  const Disc<DoubleDouble> of_a = image_of(a);
+  Disc<DoubleDouble> of_b = image_of(b);
+  if (a.back() == b.back()) return certainly_differ(ball_x(of_a), ball_x(of_b)) || certainly_differ(ball_y(of_a), ball_y(of_b));
+  const std::uint8_t side = side_entered(a);
+  const bool left = side == (side_entered(b) + 2) % 3;
+  of_b = predicates::cross(of_b, resolution_.frames().in_double_double(3 * face + side), left, predicates::unit<DoubleDouble>(0));
+  const Ball<DoubleDouble> one(1.0);
+  return certainly_differ(one - ball_x(of_a), ball_x(of_b)) || certainly_differ(-ball_y(of_a), ball_y(of_b));
+}
+
 /// Through two strips that end in this facet. Over different sides, one image is seen from behind the other's side: 1 - z.
 bool FieldWaves::have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+  if (have_images_apart(a, b)) return false;
   const predicates::StripProgram of_a = program_of(a);
   const bool one_side = a.back() == b.back();
   const predicates::StripProgram of_b = one_side ? program_of(b) : program_beyond(side_entered(a), b);
@@ -109,7 +138,7 @@ bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
   if (a.window == kNone || (b.window == kNone ? b.corner != (side + 2) % 3 : b.side == side)) return false;
   if (!resolution_.have_equal_distances(a.root, b.root)) return false;
   const predicates::StripProgram of_a = program_of(sides_of(strip(entering)));
-  const predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(program_face(resolution_.frames(), face), side)
+  const predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(*resolution_.frames().for_program(face), side)
                                                           : program_beyond(side, sides_of(strip(other)));
   return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
          are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
@@ -122,10 +151,10 @@ std::uint8_t FieldWaves::side_entered(std::span<const HalfedgeId> sides) const {
 
 predicates::StripProgram FieldWaves::program_of(std::span<const HalfedgeId> sides) const {
   const Frames& frames = resolution_.frames();
-  const auto of_face = [&](HalfedgeId h) { return program_face(frames, Mesh::face(h)); };
-  predicates::StripProgram program(of_face(sides[0]), sides[0] % 3);
+  const auto of_face = [&](HalfedgeId h) { return frames.for_program(Mesh::face(h)); };
+  predicates::StripProgram program(*of_face(sides[0]), sides[0] % 3);
   for (std::size_t i = 1; i < sides.size(); ++i)
-    program.cross(of_face(sides[i]), sides[i] % 3, sides[i] == Mesh::prev(frames.mesh().twin(sides[i - 1])));
+    program.cross(*of_face(sides[i]), sides[i] % 3, sides[i] == Mesh::prev(frames.mesh().twin(sides[i - 1])));
   return program;
 }
 
@@ -133,7 +162,7 @@ predicates::StripProgram FieldWaves::program_of(std::span<const HalfedgeId> side
 /// frame of that side is 1 - z.
 predicates::StripProgram FieldWaves::program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const {
   predicates::StripProgram program = program_of(sides);
-  program.cross(program_face(resolution_.frames(), face), side, side == (side_entered(sides) + 2) % 3);
+  program.cross(*resolution_.frames().for_program(face), side, side == (side_entered(sides) + 2) % 3);
   return program;
 }
 
@@ -300,7 +329,7 @@ std::vector<predicates::Site<Exact>> FieldWaves::where_they_part(std::span<const
   }
   if (base == kNone || Mesh::face(base) == face) return {};
   const Frames& frames = resolution_.frames();
-  const Exact length = sqrt(Exact(frames.exact(Mesh::face(base)).squared[base % 3]));
+  const Exact length = sqrt(Exact(frames.exact(Mesh::face(base))->squared[base % 3]));
   std::vector<predicates::Site<Exact>> result;
   for (std::size_t n = 0; n < which.size(); ++n) {
     predicates::Site<Exact>& site = result.emplace_back();

@@ -8,6 +8,7 @@
 
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/predicates/face_frames.hpp"
+#include "gvd/predicates/strip_program.hpp"
 #include "gvd/robust/double_double.hpp"
 #include "gvd/robust/gmp.hpp"
 #include "gvd/robust/mpfr_float.hpp"
@@ -32,9 +33,11 @@ class Frames {
   const predicates::EdgeFrame<robust::DoubleDouble>& in_double_double(HalfedgeId h) const;
   /// Cost: some hundred MPFR operations; not cached.
   std::array<predicates::EdgeFrame<robust::Mpfr>, 3> in_mpfr(FaceId f, int bits) const;
-  /// In scaled units.
-  ExactFace exact(FaceId f) const;
-  /// The frames of the face's half-edges in exact numbers, without the lengths. The last ones made are cached.
+  /// In scaled units. Here and in the next two, the last ones made are cached.
+  std::shared_ptr<const ExactFace> exact(FaceId f) const;
+  /// The face as a layer of a strip's program.
+  std::shared_ptr<const predicates::ProgramFace> for_program(FaceId f) const;
+  /// The frames of the face's half-edges in exact numbers, without the lengths.
   using RootFrames = std::array<predicates::EdgeFrame<robust::RootSum>, 3>;
   std::shared_ptr<const RootFrames> in_roots(FaceId f) const;
   /// The square class of the face's radicand: equal numbers if and only if the radicands differ by a rational square. Cached.
@@ -56,14 +59,20 @@ class Frames {
   mutable std::vector<predicates::EdgeFrame<robust::DoubleDouble>> double_double_;
   mutable std::unique_ptr<std::atomic<std::uint8_t>[]> state_;  // per face: 0 empty, 1 being made, 2 ready
   mutable std::once_flag allocate_;
-  struct RootSlot {
+  ExactFace make_exact(FaceId f) const;
+  struct Exactly {
+    predicates::ProgramFace program;
+    RootFrames frames;
+  };
+  std::shared_ptr<const Exactly> exactly(FaceId f) const;
+  struct ExactSlot {
     std::mutex mutex;
     FaceId face = kNone;
-    std::shared_ptr<const RootFrames> frames;
+    std::shared_ptr<const Exactly> numbers;
   };
-  static constexpr std::size_t kMostRootSlots = 1 << 14;  // some 30 MB when full
-  mutable std::once_flag allocate_roots_;
-  mutable std::vector<RootSlot> roots_;
+  static constexpr std::size_t kMostExactSlots = 1 << 14;  // some 50 MB when full
+  mutable std::once_flag allocate_exact_;
+  mutable std::vector<ExactSlot> exact_;
   struct Classes {
     std::mutex mutex;
     robust::SquareClasses list;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -61,7 +63,7 @@ class Resolution {
   /// Whether the straight edge from `via` brings v its distance.
   bool attains_along_edge(VertexId via, VertexId v) const noexcept;
   /// Whether the image in a window's strip is, by algebra, as far from the apex as v is from its root, whether the window sees it or not.
-  /// Pre: v is the apex of the window's face.
+  /// Pre: v is the apex of the window's face. Remembered.
   bool is_as_far(WindowId window, VertexId v) const;
   bool is_source(VertexId v) const noexcept { return source_of_vertex_[v] != kNone; }
   /// Whether a wave of its own sources starts at v and nothing reaches v sooner.
@@ -116,6 +118,8 @@ class Resolution {
   };
   std::optional<Path> exact_path(const Candidate& c, VertexId v) const;
   std::optional<robust::RootSum> squared_leg(const Candidate& c, VertexId v) const;
+  bool proves_as_far(WindowId window, VertexId v) const;
+  robust::Ball<robust::DoubleDouble> enclosed_leg(const Candidate& c, VertexId v) const;
   bool are_equal(const Leg& a, const Leg& b) const;
   robust::MaybeSign compare(const Path& a, const Path& b) const;
 
@@ -129,6 +133,8 @@ class Resolution {
   std::vector<robust::Ball<robust::DoubleDouble>> distance_;
   std::unique_ptr<WindowImages> images_;  // while `resolve` runs
   std::unique_ptr<ExactUnfoldings> exact_;
+  mutable std::once_flag allocate_as_far_;
+  mutable std::vector<std::atomic<std::uint8_t>> as_far_;  // per window: what `is_as_far` found
 };
 
 /// The double nearest to D(v) in mesh units, by stages; counted under `rounding`. Thread-safe.

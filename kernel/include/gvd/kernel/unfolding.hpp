@@ -33,6 +33,5 @@ predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const pred
 predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h);
 /// The strip as a program, however many classes it crosses.
 predicates::StripProgram strip_program(const Frames& frames, const predicates::Strip& strip);
-predicates::ProgramFace program_face(const Frames& frames, FaceId f);
 
 }  // namespace gvd::kernel
