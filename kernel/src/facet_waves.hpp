@@ -66,6 +66,8 @@ class FieldWaves final : public FacetWaves {
   bool enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   predicates::Disc<robust::DoubleDouble> image_of(std::span<const HalfedgeId> sides) const;
   bool have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
+  bool show_one_image(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
+  bool show_last_common_side_alike(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   bool have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   std::uint8_t side_entered(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_of(std::span<const HalfedgeId> sides) const;

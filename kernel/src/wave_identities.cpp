@@ -107,7 +107,7 @@ Disc<DoubleDouble> FieldWaves::image_of(std::span<const HalfedgeId> sides) const
   return image;
 }
 
-/// Whether double-doubles tell the images apart. As in `have_one_image_by_algebra`.
+/// Whether double-doubles tell the images apart. As in `show_one_image`.
 bool FieldWaves::have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
   const auto certainly_differ = [](const auto& x, const auto& y) { return maybe_sign(x - y).value_or(robust::Sign::zero) != robust::Sign::zero; };
   const Disc<DoubleDouble> of_a = image_of(a);
@@ -120,9 +120,34 @@ bool FieldWaves::have_images_apart(std::span<const HalfedgeId> a, std::span<cons
   return certainly_differ(one - ball_x(of_a), ball_x(of_b)) || certainly_differ(-ball_y(of_a), ball_y(of_b));
 }
 
-/// Through two strips that end in this facet. Over different sides, one image is seen from behind the other's side: 1 - z.
+/// Through two ways that end in this facet, or over one side.
 bool FieldWaves::have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
-  if (have_images_apart(a, b)) return false;
+  while (a.size() > 1 && b.size() > 1 && a.back() == b.back() && a[a.size() - 2] == b[b.size() - 2])  // from there on they are one way
+    a = a.first(a.size() - 1), b = b.first(b.size() - 1);
+  return !have_images_apart(a, b) && (show_one_image(a, b) || show_last_common_side_alike(a, b));
+}
+
+/// Whether two ways part over a side and then show it in one place, both ends of it: so whatever is behind.
+bool FieldWaves::show_last_common_side_alike(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+  const auto common = static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+  if (common == 0) return false;
+  const Mesh& mesh = resolution_.frames().mesh();
+  const HalfedgeId side = a[common - 1];
+  const auto shows_alike = [&](VertexId v) {
+    const auto since = [&](std::span<const HalfedgeId> way) {  // the sides crossed after v was left; none if it was met again
+      way = way.subspan(common);
+      const auto is_end = [&](HalfedgeId h) { return mesh.origin(h) == v || mesh.target(h) == v; };
+      while (!way.empty() && is_end(way.front())) way = way.subspan(1);
+      return std::none_of(way.begin(), way.end(), is_end) ? way : std::span<const HalfedgeId>();
+    };
+    const auto since_a = since(a), since_b = since(b);
+    return !since_a.empty() && !since_b.empty() && show_one_image(since_a, since_b);
+  };
+  return shows_alike(mesh.origin(side)) && shows_alike(mesh.target(side));
+}
+
+/// Over different sides, one image is seen from behind the other's side: 1 - z.
+bool FieldWaves::show_one_image(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
   const predicates::StripProgram of_a = program_of(a);
   const bool one_side = a.back() == b.back();
   const predicates::StripProgram of_b = one_side ? program_of(b) : program_beyond(side_entered(a), b);
