@@ -93,7 +93,8 @@ std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::filtered_events(std:
   if (previous) {
     if (previous->to != from || previous->from == from) return std::nullopt;  // no plain overtaking
     if (!previous->filtered || previous->filtered->existence != Existence::proved) return std::nullopt;
-    passed = {previous->from, {previous->filtered->t.lower(), previous->filtered->t.upper()}};
+    const auto& t = previous->filtered->t;  // it lies on the side, however wide its enclosure; outside, the filter's arguments do not hold
+    passed = {previous->from, {std::max(0.0, t.lower()), std::min(1.0, t.upper())}};
   }
   const auto next = overtaking_.next(side, from, passed);
   if (!next) return std::nullopt;
