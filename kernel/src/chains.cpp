@@ -1,6 +1,7 @@
 #include "chains.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -137,10 +138,11 @@ class Tracer {
   template <class NT>
   static bool other_distances(FacetWaves& wa, std::uint32_t a, FacetWaves& wb, std::uint32_t b, int bits) {
     using predicates::operator-;
-    const auto square_from = [bits](FacetWaves& waves, std::uint32_t site, VertexId v) {
+    const int unit = std::ilogb(wa.frame(FacetWaves::F()).length.mid());  // so that no square overflows
+    const auto square_from = [=](FacetWaves& waves, std::uint32_t site, VertexId v) {
       const auto k = static_cast<std::size_t>(std::find(waves.corner.begin(), waves.corner.end(), v) - waves.corner.begin());
       const auto& frame = frame_in<NT>(waves, bits);
-      return squared_norm(site_in<NT>(waves, site, bits).image - predicates::corner_point(frame, k)) * square(frame.length);
+      return squared_norm(site_in<NT>(waves, site, bits).image - predicates::corner_point(frame, k)) * square(frame.length.scaled(-unit));
     };
     for (const VertexId v : wa.corner) {
       if (std::find(wb.corner.begin(), wb.corner.end(), v) == wb.corner.end()) continue;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 #include "gvd/kernel/mesh.hpp"
@@ -22,6 +24,15 @@ std::array<NT, 3> position_in(const Mesh& mesh, VertexId v, int bits) {
   return {robust::from<NT>(p[0], bits), robust::from<NT>(p[1], bits), robust::from<NT>(p[2], bits)};
 }
 
+/// The binary exponent of the largest difference of coordinates.
+inline int exponent_of_longest_side(const Mesh& input, FaceId face) {
+  double largest = 0;
+  const Point& origin = input.point(input.origin(3 * face));
+  for (std::uint32_t k = 1; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::fabs(input.point(input.origin(3 * face + k))[i] - origin[i]));
+  return std::isfinite(largest) ? std::ilogb(largest) : 0;
+}
+
 /// The frame of an input face: corner 0 = (0, 0), corner 1 = (length, 0), mesh units.
 template <class NT>
 struct InputFrame {
@@ -33,14 +44,16 @@ template <class NT>
 InputFrame<NT> input_frame(const Mesh& input, FaceId face, int bits) {
   std::array<std::array<NT, 3>, 3> p;
   for (std::uint32_t k = 0; k < 3; ++k) p[k] = position_in<NT>(input, input.origin(3 * face + k), bits);
+  const int unit = exponent_of_longest_side(input, face);  // so that no square overflows, and few underflow
   std::array<NT, 3> a, b;
   for (std::size_t i = 0; i < 3; ++i) {
-    a[i] = p[1][i] - p[0][i];
-    b[i] = p[2][i] - p[0][i];
+    a[i] = (p[1][i] - p[0][i]).scaled(-unit);
+    b[i] = (p[2][i] - p[0][i]).scaled(-unit);
   }
   const NT n0 = a[1] * b[2] - a[2] * b[1], n1 = a[2] * b[0] - a[0] * b[2], n2 = a[0] * b[1] - a[1] * b[0];
   const NT length = sqrt(square(a[0]) + square(a[1]) + square(a[2]));
-  return {length, {(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / length, sqrt(square(n0) + square(n1) + square(n2)) / length}};
+  const NT x = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / length, y = sqrt(square(n0) + square(n1) + square(n2)) / length;
+  return {length.scaled(unit), {x.scaled(unit), y.scaled(unit)}};
 }
 
 /// Maps points of a facet's frame (frame units) to the frame of the input face that it is a part of.
