@@ -62,7 +62,6 @@ class FieldWaves final : public FacetWaves {
   void add_window(const Arrival& arrival, std::uint8_t side);
   void add_corner(std::uint8_t k);
   using Sides = std::vector<HalfedgeId>;
-  static Sides sides_of(const predicates::Strip& strip);
   bool enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   predicates::Disc<robust::DoubleDouble> image_of(std::span<const HalfedgeId> sides) const;
   bool have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
@@ -70,7 +69,6 @@ class FieldWaves final : public FacetWaves {
   bool show_last_common_side_alike(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   bool have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   std::uint8_t side_entered(std::span<const HalfedgeId> sides) const;
-  predicates::StripProgram program_of(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const;
   std::optional<Sides> sides_since(WindowId strip, VertexId v) const;
   WindowId arrival(WindowId strip, VertexId v) const;

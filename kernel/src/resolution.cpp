@@ -366,11 +366,27 @@ bool Resolution::are_equal(const Leg& a, const Leg& b) const {
   if (a.window == b.window && a.from == b.from && a.to == b.to) return true;
   if (a.squared && b.squared) return (*a.squared - *b.squared).is_zero();
   if (a.window == kNone || b.window == kNone) return false;
-  const auto program = [&](WindowId window) {
+  const Mesh& mesh = frames_.mesh();
+  const auto of_a = sides_of(strip_of(mesh, field_, a.window)), of_b = sides_of(strip_of(mesh, field_, b.window));
+  if (a.from == b.from && a.to == b.to && show_end_alike(of_a, of_b)) return true;
+  const auto squared = [&](WindowId window, std::span<const HalfedgeId> sides) {
     const HalfedgeId h = field_.windows[window].halfedge();
-    return strip_program(frames_, strip_of(frames_.mesh(), field_, window)).squared_distance_to_apex(*frames_.for_program(Mesh::face(h)), h % 3);
+    return way_program(frames_, sides).squared_distance_to_apex(*frames_.for_program(Mesh::face(h)), h % 3);
   };
-  return robust::are_proved_equal(program(a.window), program(b.window));
+  return robust::are_proved_equal(squared(a.window, of_a), squared(b.window, of_b));
+}
+
+/// Whether two ways to one apex part over a side from which both see it in one place: going backwards to that side, they show one image of it.
+bool Resolution::show_end_alike(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+  const auto common = static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+  if (common == 0 || common == a.size() || common == b.size()) return false;
+  const auto backwards = [&](std::span<const HalfedgeId> way) {
+    std::vector<HalfedgeId> sides;
+    for (std::size_t i = way.size(); i >= common; --i) sides.push_back(frames_.mesh().twin(way[i - 1]));
+    return way_program(frames_, sides);
+  };
+  const predicates::StripProgram of_a = backwards(a), of_b = backwards(b);
+  return are_proved_equal(of_a.value({0, 1, 0, 0}), of_b.value({0, 1, 0, 0})) && are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
 }
 
 /// The sign of the difference of the lengths. Equal legs cancel, the same ones without any arithmetic.

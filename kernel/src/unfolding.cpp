@@ -54,8 +54,18 @@ predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h) {
   return {frame.u, frame.y};
 }
 
-predicates::StripProgram strip_program(const Frames& frames, const Strip& strip) {
-  return predicates::strip_program(strip, [&](HalfedgeId h) { return *frames.for_program(Mesh::face(h)); });
+std::vector<HalfedgeId> sides_of(const Strip& strip) {
+  std::vector<HalfedgeId> sides{strip.opposite};
+  for (const predicates::StripStep& step : strip.steps) sides.push_back(step.side);
+  return sides;
+}
+
+predicates::StripProgram way_program(const Frames& frames, std::span<const HalfedgeId> sides) {
+  const auto of_face = [&](HalfedgeId h) { return frames.for_program(Mesh::face(h)); };
+  predicates::StripProgram program(*of_face(sides[0]), sides[0] % 3);
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    program.cross(*of_face(sides[i]), sides[i] % 3, sides[i] == Mesh::prev(frames.mesh().twin(sides[i - 1])));
+  return program;
 }
 
 }  // namespace gvd::kernel

@@ -12,13 +12,6 @@ using robust::Ball;
 using robust::DoubleDouble;
 using robust::Exact;
 
-/// The sides that a strip crosses, from its root on; each in the face that is left.
-FieldWaves::Sides FieldWaves::sides_of(const Strip& strip) {
-  Sides sides{strip.opposite};
-  for (const predicates::StripStep& step : strip.steps) sides.push_back(step.side);
-  return sides;
-}
-
 /// Two ways from one root to this facet. Wherever they part, until they meet again, the vertices on the right of one must be those
 /// on the left of the other: then the ways enclose nothing else. Round flat vertices alone, either way unfolds the root to one
 /// image.
@@ -148,9 +141,9 @@ bool FieldWaves::show_last_common_side_alike(std::span<const HalfedgeId> a, std:
 
 /// Over different sides, one image is seen from behind the other's side: 1 - z.
 bool FieldWaves::show_one_image(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
-  const predicates::StripProgram of_a = program_of(a);
+  const predicates::StripProgram of_a = way_program(resolution_.frames(), a);
   const bool one_side = a.back() == b.back();
-  const predicates::StripProgram of_b = one_side ? program_of(b) : program_beyond(side_entered(a), b);
+  const predicates::StripProgram of_b = one_side ? way_program(resolution_.frames(), b) : program_beyond(side_entered(a), b);
   const std::array<long, 4> x = one_side ? std::array<long, 4>{0, 1, 0, 0} : std::array<long, 4>{0, -1, 0, 1};
   return are_proved_equal(of_a.value(x), of_b.value({0, 1, 0, 0})) &&
          are_proved_equal(of_a.value({0, 0, one_side ? 1 : -1, 0}), of_b.value({0, 0, 1, 0}));
@@ -162,7 +155,7 @@ bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
   const std::uint8_t side = a.side;
   if (a.window == kNone || (b.window == kNone ? b.corner != (side + 2) % 3 : b.side == side)) return false;
   if (!resolution_.have_equal_distances(a.root, b.root)) return false;
-  const predicates::StripProgram of_a = program_of(sides_of(strip(entering)));
+  const predicates::StripProgram of_a = way_program(resolution_.frames(), sides_of(strip(entering)));
   const predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(*resolution_.frames().for_program(face), side)
                                                           : program_beyond(side, sides_of(strip(other)));
   return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
@@ -174,19 +167,10 @@ std::uint8_t FieldWaves::side_entered(std::span<const HalfedgeId> sides) const {
   return static_cast<std::uint8_t>(resolution_.frames().mesh().twin(sides.back()) % 3);
 }
 
-predicates::StripProgram FieldWaves::program_of(std::span<const HalfedgeId> sides) const {
-  const Frames& frames = resolution_.frames();
-  const auto of_face = [&](HalfedgeId h) { return frames.for_program(Mesh::face(h)); };
-  predicates::StripProgram program(*of_face(sides[0]), sides[0] % 3);
-  for (std::size_t i = 1; i < sides.size(); ++i)
-    program.cross(*of_face(sides[i]), sides[i] % 3, sides[i] == Mesh::prev(frames.mesh().twin(sides[i - 1])));
-  return program;
-}
-
 /// The image of a strip that comes over another side, in the frame of `side` as the neighbour there sees it: in which an image z in the facet's own
 /// frame of that side is 1 - z.
 predicates::StripProgram FieldWaves::program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const {
-  predicates::StripProgram program = program_of(sides);
+  predicates::StripProgram program = way_program(resolution_.frames(), sides);
   program.cross(*resolution_.frames().for_program(face), side, side == (side_entered(sides) + 2) % 3);
   return program;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -121,6 +122,7 @@ class Resolution {
   bool proves_as_far(WindowId window, VertexId v) const;
   robust::Ball<robust::DoubleDouble> enclosed_leg(const Candidate& c, VertexId v) const;
   bool are_equal(const Leg& a, const Leg& b) const;
+  bool show_end_alike(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   robust::MaybeSign compare(const Path& a, const Path& b) const;
 
   const Frames& frames_;

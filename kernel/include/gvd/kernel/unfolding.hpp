@@ -2,7 +2,9 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <unordered_map>
+#include <vector>
 
 #include "gvd/kernel/distance_field.hpp"
 #include "gvd/kernel/frames.hpp"
@@ -31,7 +33,9 @@ predicates::Unfolding<robust::Mpfr> unfold_mpfr(const Frames& frames, const pred
 
 /// The apex of the frame of h.
 predicates::RootPoint exact_apex(const Frames& frames, HalfedgeId h);
-/// The strip as a program, however many classes it crosses.
-predicates::StripProgram strip_program(const Frames& frames, const predicates::Strip& strip);
+/// The sides that a strip crosses, from its root on; each in the face that is left.
+std::vector<HalfedgeId> sides_of(const predicates::Strip& strip);
+/// The image of a way's root, as a program, however many square classes it crosses. `sides` as of `sides_of`: the first one is opposite to the root.
+predicates::StripProgram way_program(const Frames& frames, std::span<const HalfedgeId> sides);
 
 }  // namespace gvd::kernel
