@@ -1,10 +1,12 @@
 // How the waves that wait on a half-edge cross the face above it. What is used here only is inline: position-independent code would call it else.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/predicates/longer.hpp"
+#include "gvd/robust/double_pair.hpp"
 #include "propagation.hpp"
 
 namespace gvd::kernel {
@@ -13,8 +15,9 @@ using predicates::kDistanceError;
 using predicates::kFrameError;
 using predicates::kOrientationError;
 using predicates::kStepError;
-using predicates::rounded_up;
-using predicates::StretchedLanding;
+using robust::choose;
+using robust::DoublePair;
+using robust::PairMask;
 
 namespace {
 
@@ -28,11 +31,27 @@ Image cross(const Image& z, const Frame& side) {
   return kLeft ? predicates::cross_left(z, side) : predicates::cross_right(z, side);
 }
 
-/// The landing of the ray through a point of the parent's frame; `slack`: how far off along the parent's edge a second point may lie.
+/// Both at once, for the cone's vertices and for two points of the edge.
 template <bool kLeft>
-[[gnu::always_inline]] inline StretchedLanding land_end(const Image& from, double slack, const Image& image, const Frame& side, double disc, double parent_ratio) {
-  const Image along = kLeft ? Image{side.v, -side.y} : Image{side.u, side.y};
-  return predicates::land(image, cross<kLeft>(from, side), disc, slack, along, parent_ratio);
+[[gnu::always_inline]] inline predicates::Complex<DoublePair> cross(const DoublePair& x, const DoublePair& y, const Frame& side) {
+  if constexpr (kLeft) return {x * side.v + y * side.y, y * side.v - x * side.y};
+  const DoublePair back = 1 - x;
+  return {1 - (back * side.u + y * side.y), y * side.u - back * side.y};
+}
+template <bool kLeft>
+[[gnu::always_inline]] inline predicates::Complex<DoublePair> cross(const DoublePair& x, const Frame& side) {
+  if constexpr (kLeft) return {x * side.v, -x * side.y};
+  const DoublePair back = x - 1;
+  return {1 + back * side.u, back * side.y};
+}
+
+/// A slack that leaves nothing.
+constexpr DoublePair kNowhere{8, 8};
+/// predicates::rounded_up at the ends that have any, zero at the others.
+[[gnu::always_inline]] inline Ends<float> rounded_up(const DoublePair& slack, PairMask has_slack) {
+  using Floats = float __attribute__((vector_size(8)));
+  const DoublePair rounded = choose(has_slack, slack * (1 + 0x1p-20) + 0x1p-120, DoublePair{0, 0});
+  return std::bit_cast<Ends<float>>(__builtin_convertvector(rounded, Floats));
 }
 
 }  // namespace
@@ -41,65 +60,72 @@ template <bool kLeft>
 struct Propagation::Exit {
   HalfedgeId target, edge;  // the edge: by the lower one of its half-edges
   Frame side;
-  double squared_length, inverse_length, parent_ratio;  // of the parent's length to the side's
-  double origin_upper, target_upper, third_upper;  // certain upper bounds of D at the ends of the side and at the third vertex of the face
+  double inverse_length, parent_ratio;  // of the parent's length to the side's
+  double step_error;                    // of a crossing, a unit of the image's size
+  // For is_certainly_longer: lengths, and upper bounds of D at the third vertex of the face and at the ends of the side, that of the target first.
+  double squared_length, length, third_upper;
+  DoublePair ends_upper;
   std::uint32_t turn_limit;
   WindowId first_window;
   List children;
 };
 
 inline Propagation::Exit Propagation::exit_over(HalfedgeId side, VertexId third, double parent_length, bool left) const {
-  Exit exit{mesh_.twin(side), std::min(side, mesh_.twin(side)), frames_[side], 0, 0, 0, 0, 0, 0, 0, kNone, {}};
+  Exit exit{mesh_.twin(side), std::min(side, mesh_.twin(side)), frames_[side], 0, 0, 0, 0, 0, 0, {0, 0}, 0, kNone, {}};
   if (exit.target == kNone) return exit;
   const VertexId origin = mesh_.target(side), target = mesh_.origin(side);
-  exit.squared_length = exit.side.length * exit.side.length;
   exit.inverse_length = 1 / exit.side.length;
   exit.parent_ratio = parent_length * exit.inverse_length;
-  exit.origin_upper = upper_[origin];
-  exit.target_upper = upper_[target];
-  exit.third_upper = upper_[third];
+  exit.step_error = 2 * kStepError * exit.side.length;
+  exit.squared_length = predicates::diminished(exit.side.length * exit.side.length);
+  exit.length = predicates::enlarged(exit.side.length);
+  exit.third_upper = predicates::enlarged(upper_[third]);
+  exit.ends_upper = DoublePair{predicates::enlarged(upper_[target]), predicates::enlarged(upper_[origin])};
   exit.turn_limit = degree_[left ? origin : target];
   exit.first_window = field_.first_window[exit.target];
   return exit;
 }
 
-#if defined(__x86_64__) && !defined(__AVX2__) && defined(__GNUC__)
-/// The same numbers in fewer instructions, for processors that have them.
-__attribute__((target("avx2"), flatten)) void Propagation::cross_face_by_avx(HalfedgeId h) { cross_face_here(h); }
+/// The apex of the face, for all waves that come to it.
+struct Propagation::Apex {
+  const Frame& frame;
+  double inverse_length, size, disc;  // disc: of the apex
+};
 
-void Propagation::cross_face(HalfedgeId h) {
-  static const bool has_avx = __builtin_cpu_supports("avx2") != 0;
-  return has_avx ? cross_face_by_avx(h) : cross_face_here(h);
-}
+#if defined(__x86_64__) && defined(__GNUC__)
+/// The same numbers in fewer instructions, for processors that have them: tests/kernel/instructions_test.cpp compares the two bit for bit.
+__attribute__((target("avx2"), flatten)) void Propagation::cross_face_by_avx(HalfedgeId h) { cross_face_here(h); }
 #else
-void Propagation::cross_face(HalfedgeId h) { cross_face_here(h); }
+void Propagation::cross_face_by_avx(HalfedgeId h) { cross_face_here(h); }
 #endif
+
+void Propagation::cross_face(HalfedgeId h) { return by_avx_ ? cross_face_by_avx(h) : cross_face_here(h); }
 
 inline void Propagation::cross_face_here(HalfedgeId h) {
   trim_list(h);
   if (kept_ == 0) return;
   const Frame& frame = frames_[h];
-  const double inverse_length = 1 / frame.length;
-  for (std::size_t k = 0; k < kept_; ++k) sights_of_list_[k] = see_apex(list_[k].wave, h, frame, inverse_length);  // may add waves
+  const double size = norm1(frame.u, frame.y);
+  const Apex apex{frame, 1 / frame.length, size, kFrameError * size};
+  for (std::size_t k = 0; k < kept_; ++k) sights_of_list_[k] = see_apex(list_[k].wave, h, apex);  // may add waves
   make_room(2 * kept_);
   Exit left = exit_over(Mesh::prev(h), mesh_.target(h), frame.length, true), right = exit_over(Mesh::next(h), mesh_.origin(h), frame.length, false);
   const ApexSight best = sides_[h].sight;
   for (std::size_t k = 0; k < kept_; ++k) {
     const Wave& wave = waves_[list_[k].wave];
     const Sight sight = sights_of_list_[k];
-    const double reach = (norm1(wave.image.x, wave.image.y) + 1) * frame.length;
     if (left.target != kNone && sight != Sight::beyond_0 && sight != Sight::on_ray_0) {
       if (wave.begin >= best.high && is_longer_to_apex(wave, frame, best)) {
         ++filtered_prunings_;
       } else {
-        make_child<true>(wave, sight == Sight::inside || sight == Sight::on_ray_1, reach, left);
+        make_child<true>(wave, sight == Sight::inside || sight == Sight::on_ray_1, left);
       }
     }
     if (right.target != kNone && sight != Sight::beyond_1 && sight != Sight::on_ray_1) {
       if (wave.end <= best.low && is_longer_to_apex(wave, frame, best)) {
         ++filtered_prunings_;
       } else {
-        make_child<false>(wave, sight == Sight::inside || sight == Sight::on_ray_0, reach, right);
+        make_child<false>(wave, sight == Sight::inside || sight == Sight::on_ray_0, right);
       }
     }
   }
@@ -194,10 +220,11 @@ inline std::size_t Propagation::sort_waiting(HalfedgeId h) {
 }
 
 /// Where the apex lies for a wave; tells the apex if it is seen.
-inline Propagation::Sight Propagation::see_apex(std::uint32_t w, HalfedgeId h, const Frame& frame, double inverse_length) {
+inline Propagation::Sight Propagation::see_apex(std::uint32_t w, HalfedgeId h, const Apex& at) {
   const Wave& wave = waves_[w];
-  const double disc = wave.image_error * inverse_length + kFrameError * norm1(frame.u, frame.y);
-  const Sight where = locate_apex(wave, h, frame, disc);
+  const Frame& frame = at.frame;
+  const double disc = wave.image_error * at.inverse_length + at.disc;
+  const Sight where = locate_apex(wave, h, at, disc);
   if (where == Sight::beyond_0 || where == Sight::beyond_1) return where;
   const double distance = apex_distance(wave, frame);
   const double error = (wave.image_error + wave.weight_error) + kDistanceError * distance;
@@ -215,81 +242,73 @@ inline Propagation::Sight Propagation::see_apex(std::uint32_t w, HalfedgeId h, c
   return where;
 }
 
-inline Propagation::Sight Propagation::locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame, double disc) {
-  const double wx = frame.u - wave.image.x, wy = frame.y - wave.image.y;
-  const double x0 = wave.cone0.x - wave.image.x, y0 = wave.cone0.y - wave.image.y;
-  const double x1 = wave.cone1.x - wave.image.x, y1 = wave.cone1.y - wave.image.y;
-  const double side0 = x0 * wy - y0 * wx, side1 = x1 * wy - y1 * wx;
-  const double size = norm1(wx, wy) + 2 * disc, size0 = norm1(x0, y0) + 2 * disc, size1 = norm1(x1, y1) + 2 * disc;
-  const double part = 2.125 * disc, share = part + kOrientationError * size, whole = part * size;
-  const double bound0 = whole + share * size0, bound1 = whole + share * size1;
+inline Propagation::Sight Propagation::locate_apex(const Wave& wave, HalfedgeId h, const Apex& apex, double disc) {
+  const double wx = apex.frame.u - wave.image.x, wy = apex.frame.y - wave.image.y;
+  const DoublePair sides = (wave.cone_x - wave.image.x) * wy - (wave.cone_y - wave.image.y) * wx;
+  // A cone's vertex is no farther from the image than an end of the edge.
+  const double to_cone = norm1(wave.image.x, wave.image.y) + 1 + 8 * disc, to_apex = to_cone + apex.size;
+  const double bound = 2.125 * disc * (to_cone + to_apex) + kOrientationError * to_cone * to_apex;
+  const DoublePair outwards = sides * DoublePair{1, -1};
+  const unsigned beyond = robust::bits(outwards > bound), within = robust::bits(outwards < -bound);
   ++filtered_orientations_;
-  if (side0 > bound0) return Sight::beyond_0;
-  if (side1 < -bound1) return Sight::beyond_1;
-  if (side0 < -bound0 && side1 > bound1) return Sight::inside;
+  if (beyond != 0) return (beyond & kAtBegin) != 0 ? Sight::beyond_0 : Sight::beyond_1;
+  if (within == (kAtBegin | kAtEnd)) return Sight::inside;
   --filtered_orientations_;
   return decide_apex(wave, h);
 }
 
-/// A child is made in a free wave, and kept there unless it is certainly nowhere shortest.
+/// A child is made unless it is certainly nowhere shortest.
 template <bool kLeft>
-void Propagation::make_child(const Wave& wave, bool at_apex, double parent_reach, Exit& exit) {
+void Propagation::make_child(const Wave& wave, bool at_apex, Exit& exit) {
   const Frame& side = exit.side;
   // A shortest path crosses no edge twice: a window that has come once round a vertex, or once more over its mark, is done.
   const std::uint32_t turns = (kLeft ? wave.begin_turns : wave.end_turns) + 1u, steps = wave.steps + 1;
   if (turns >= exit.turn_limit || exit.edge == wave.mark) return;
   const Image image = cross<kLeft>(wave.image, side);
-  const double image_error = wave.image_error + kStepError * (parent_reach + (norm1(image.x, image.y) + 1) * side.length);
+  const double image_error = wave.image_error + exit.step_error * (norm1(image.x, image.y) + 1);
   const double disc = image_error * exit.inverse_length;
-  Wave& child = waves_[free_wave_];
-  child.image = image;
-  const bool at_origin = kLeft ? wave.cone0_at_origin : at_apex, at_target = kLeft ? at_apex : wave.cone1_at_target;
-  child.cone0_at_origin = at_origin;
-  child.cone1_at_target = at_target;
-  child.cone0 = at_origin ? Image{0, 0} : cross<kLeft>(wave.cone0, side);
-  child.cone1 = at_target ? Image{1, 0} : cross<kLeft>(wave.cone1, side);
+  constexpr unsigned kOld = kLeft ? kAtBegin : kAtEnd, kNew = kLeft ? kAtEnd : kAtBegin;
+  const unsigned bounded = (wave.bounded & kOld) | (at_apex ? kNew : 0u);
+  const PairMask at_corner = robust::mask_of(bounded), is_trimmed = robust::mask_of(wave.trimmed);
+  const auto moved = cross<kLeft>(wave.cone_x, wave.cone_y, side), cut = cross<kLeft>(DoublePair{wave.begin, wave.end}, side);
+  const DoublePair cone_x = choose(at_corner, DoublePair{0, 1}, moved.x), cone_y = choose(at_corner, DoublePair{0, 0}, moved.y);
   // The ends: by the rays that cut the wave off, else by those that bound its cone.
-  child.begin = 0;
-  child.begin_slack = 0;
-  child.begin_trimmed = false;
-  if (wave.begin_trimmed | !at_origin) {
-    const Image cut{std::min(wave.begin, 1.0), 0};
-    const StretchedLanding l = land_end<kLeft>(*(wave.begin_trimmed ? &cut : &wave.cone0), wave.begin_trimmed ? wave.begin_slack : 0.0F, image, side, disc, exit.parent_ratio);
-    const double at = l.at - l.margin;
-    child.begin_trimmed = wave.begin_trimmed & (at > 0);
-    child.begin = std::max(at, 0.0);
-    if (child.begin_trimmed | !at_origin) child.begin_slack = rounded_up(l.margin + l.reach);
-  }
-  child.end = 1;
-  child.end_slack = 0;
-  child.end_trimmed = false;
-  if (wave.end_trimmed | !at_target) {
-    const Image cut{std::max(wave.end, 0.0), 0};
-    const StretchedLanding l = land_end<kLeft>(*(wave.end_trimmed ? &cut : &wave.cone1), wave.end_trimmed ? wave.end_slack : 0.0F, image, side, disc, exit.parent_ratio);
-    const double at = l.at + l.margin;
-    child.end_trimmed = wave.end_trimmed & (at < 1);
-    child.end = std::min(at, 1.0);
-    if (child.end_trimmed | !at_target) child.end_slack = rounded_up(l.margin + l.reach);
-  }
-  if (child.begin > child.end || is_certainly_longer<kLeft>(child, wave.weight, image_error + wave.weight_error, exit)) {
+  const predicates::Complex<DoublePair> through{choose(is_trimmed, cut.x, cone_x), choose(is_trimmed, cut.y, cone_y)};
+  const DoublePair slack = choose(is_trimmed, DoublePair{wave.slack.begin, wave.slack.end}, DoublePair{0, 0});
+  const auto landing = predicates::land(image, through, disc, slack, kLeft ? Image{side.v, -side.y} : Image{side.u, side.y}, exit.parent_ratio);
+  const DoublePair outer = landing.at + DoublePair{-1, 1} * landing.margin;
+  const PairMask is_inner = landing.known & (outer * DoublePair{1, -1} > DoublePair{0, -1}) & (is_trimmed | ~at_corner);
+  const DoublePair ends = choose(is_inner, outer, DoublePair{0, 1});
+  const double rest = predicates::enlarged(image_error + wave.weight_error) - wave.weight;
+  if (ends[0] > ends[1] || is_certainly_longer<kLeft>(image, ends, rest, exit)) {
     ++filtered_prunings_;
     return;
   }
+  const std::uint32_t w = free_wave_;
+  Wave& child = waves_[w];
+  free_wave_ = child.next;
+  --free_waves_;
+  child.image = image;
+  child.begin = ends[0];
+  child.end = ends[1];
+  child.weight = wave.weight;
+  child.image_error = image_error;
+  child.weight_error = wave.weight_error;
+  const DoublePair reach = choose(landing.known, landing.margin + landing.reach, kNowhere);
+  child.slack = rounded_up(reach, (is_inner & is_trimmed) | ~at_corner);
+  child.trimmed = static_cast<std::uint8_t>(robust::bits(is_inner & is_trimmed));
+  child.bounded = static_cast<std::uint8_t>(bounded);
+  child.cone_x = cone_x;
+  child.cone_y = cone_y;
   child.begin_turns = kLeft ? static_cast<std::uint16_t>(turns) : std::uint16_t{0};
   child.end_turns = kLeft ? std::uint16_t{0} : static_cast<std::uint16_t>(turns);
   child.steps = steps;
   child.mark = (steps & (steps - 1)) == 0 ? exit.edge : wave.mark;
-  child.weight = wave.weight;
-  child.weight_error = wave.weight_error;
-  child.image_error = rounded_up(image_error);
   child.root = wave.root;
   child.window = static_cast<WindowId>(field_.windows.size());
+  child.next = kNone;
   field_.windows.push_back({wave.window, exit.target | (at_apex ? WindowRecord::kApexInCone : 0u), wave.root, exit.first_window});
   exit.first_window = child.window;
-  const std::uint32_t w = free_wave_;
-  free_wave_ = child.next;
-  --free_waves_;
-  child.next = kNone;
   if (exit.children.first == kNone) {
     exit.children.first = w;
   } else {
@@ -299,24 +318,17 @@ void Propagation::make_child(const Wave& wave, bool at_apex, double parent_reach
   ++exit.children.size;
 }
 
-/// Xin and Wang's filter: whether every point of the child is certainly nearer to some vertex of the face.
+/// Xin and Wang's filter: whether every point of a child is certainly nearer to some vertex of the face.
 template <bool kLeft>
-bool Propagation::is_certainly_longer(const Wave& child, double weight, double error, const Exit& exit) {
+bool Propagation::is_certainly_longer(const Image& image, const DoublePair& ends, double rest, const Exit& exit) {
   const Frame& side = exit.side;
-  const auto is_longer = [&](double squared_reach, double path) {
-    return predicates::is_certainly_longer(weight, exit.squared_length, squared_reach, error, path);
-  };
-  const double y2 = child.image.y * child.image.y;
-  const double to_begin = child.image.x - child.begin, to_end = child.image.x - child.end;
-  const double reach_begin = to_begin * to_begin + y2, reach_end = to_end * to_end + y2;
-  if (is_longer(reach_end, exit.origin_upper + child.end * side.length) ||
-      is_longer(reach_begin, exit.target_upper + (1 - child.begin) * side.length))
-    return true;
-  const double nearest = kLeft ? reach_begin : reach_end;
-  const double third_x = side.v - (kLeft ? child.begin : child.end);
-  if (!is_longer(nearest, exit.third_upper + side.length * std::max(std::fabs(third_x), side.y))) return false;
-  const double from_third = exit.third_upper + side.length * std::sqrt(third_x * third_x + side.y * side.y);
-  return is_longer(nearest, from_third * (1 + kDistanceError));
+  const DoublePair to_ends = image.x - ends, squared_reach = to_ends * to_ends + image.y * image.y;
+  const DoublePair along = exit.ends_upper + exit.length * (DoublePair{1, 0} + DoublePair{-1, 1} * ends);
+  if (robust::any(predicates::is_certainly_longer(squared_reach, exit.squared_length, along, rest))) return true;
+  const double nearest = squared_reach[kLeft ? 0 : 1], third_x = side.v - ends[kLeft ? 0 : 1];
+  const auto is_longer = [&](double path) { return predicates::is_certainly_longer(nearest, exit.squared_length, path, rest); };
+  return is_longer(exit.third_upper + exit.length * std::max(std::fabs(third_x), side.y)) &&
+         is_longer((exit.third_upper + exit.length * std::sqrt(third_x * third_x + side.y * side.y)) * (1 + kDistanceError));
 }
 
 }  // namespace gvd::kernel

@@ -123,10 +123,8 @@ bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, 
   arrival.image = image.mid;
   arrival.begin = std::max(0.0, l0.at - l0.margin);
   arrival.end = std::min(1.0, l1.at + l1.margin);
-  arrival.begin_slack = predicates::rounded_up(2 * l0.margin);
-  arrival.end_slack = predicates::rounded_up(2 * l1.margin);
-  arrival.begin_trimmed = arrival.end_trimmed = false;
-  arrival.cone0_at_origin = arrival.cone1_at_target = false;  // plays no part here
+  arrival.slack = {predicates::rounded_up(2 * l0.margin), predicates::rounded_up(2 * l1.margin)};
+  arrival.trimmed = arrival.bounded = 0;  // plays no part here
   arrival.weight = weight.mid();
   arrival.weight_error = predicates::rounded_up(weight.rad());
   arrival.image_error = predicates::rounded_up(image.radius * frame.length);

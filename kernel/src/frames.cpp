@@ -103,24 +103,19 @@ Frames::Frames(const Mesh& mesh) : mesh_(mesh) {
   }
 }
 
-const predicates::EdgeFrame<DoubleDouble>& Frames::in_double_double(HalfedgeId h) const {
+void Frames::make_in_double_double(FaceId f) const {
   std::call_once(allocate_, [&] {
     state_ = std::make_unique<std::atomic<std::uint8_t>[]>(mesh_.face_count());
     double_double_.resize(mesh_.halfedge_count());
+    states_.store(state_.get(), std::memory_order_release);
   });
-  const FaceId f = Mesh::face(h);
-  std::uint8_t state = state_[f].load(std::memory_order_acquire);
-  while (state != 2) {
-    if (state == 0 && state_[f].compare_exchange_strong(state, 1, std::memory_order_acq_rel)) {
-      const auto frames = make<DoubleDouble>(f, 106);
-      for (std::size_t k = 0; k < 3; ++k) double_double_[3 * f + k] = frames[k];
-      state_[f].store(2, std::memory_order_release);
-      break;
-    }
-    if (state == 1) std::this_thread::yield();
-    state = state_[f].load(std::memory_order_acquire);
+  std::uint8_t state = kEmpty;
+  if (state_[f].compare_exchange_strong(state, kBeingMade, std::memory_order_acq_rel)) {
+    const auto frames = make<DoubleDouble>(f, 106);
+    for (std::size_t k = 0; k < 3; ++k) double_double_[3 * f + k].frame = frames[k];
+    state_[f].store(kReady, std::memory_order_release);
   }
-  return double_double_[h];
+  while (state_[f].load(std::memory_order_acquire) != kReady) std::this_thread::yield();
 }
 
 std::array<predicates::EdgeFrame<Mpfr>, 3> Frames::in_mpfr(FaceId f, int bits) const { return make<Mpfr>(f, bits + 8); }

@@ -26,11 +26,20 @@ namespace {
 
 double norm1(double x, double y) { return std::fabs(x) + std::fabs(y); }
 
+bool has_avx() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
 }  // namespace
 
 Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& kinds, DistanceField& field,
-                         predicates::Decisions& decisions)
-    : mesh_(frames.mesh()), all_frames_(frames), frames_(frames.in_double()), kinds_(kinds), field_(field), exact_(frames, field), decisions_(decisions) {
+                         predicates::Decisions& decisions, Instructions instructions)
+    : mesh_(frames.mesh()), all_frames_(frames), frames_(frames.in_double()), kinds_(kinds), field_(field), exact_(frames, field), decisions_(decisions),
+      by_avx_(instructions == Instructions::any && has_avx()) {
   const std::size_t n = mesh_.vertex_count(), m = mesh_.halfedge_count();
   const double infinity = std::numeric_limits<double>::infinity();
   field_.first_window.assign(m, kNone);
@@ -215,14 +224,14 @@ void Propagation::emit(VertexId v, HalfedgeId outgoing, const Shadow* shadow) {
   Wave& wave = waves_[w];
   free_wave_ = wave.next;
   --free_waves_;
-  wave = {};
+  wave = Wave{};
   wave.image = predicates::apex_from_behind(frame);
-  wave.cone1 = {1, 0};
+  wave.cone_x = robust::DoublePair{0, 1};
   wave.end = 1;
   wave.weight = emitted_weight_[v];
   wave.weight_error = rounded_up(emitted_error_[v]);
-  wave.image_error = rounded_up(2 * kStepError * (norm1(wave.image.x, wave.image.y) + 1) * frame.length);
-  wave.cone0_at_origin = wave.cone1_at_target = true;
+  wave.image_error = 2 * kStepError * (norm1(wave.image.x, wave.image.y) + 1) * frame.length;
+  wave.bounded = kAtBegin | kAtEnd;
   if (shadow != nullptr && cut_at_shadow(*shadow, outgoing, wave)) cut_at_shadow_[v] = 1;
   wave.root = v;
   wave.mark = kNone;
@@ -257,18 +266,18 @@ bool Propagation::cut_at_shadow(const Shadow& shadow, HalfedgeId outgoing, Wave&
   if (shadow.first.face == outgoing) {
     const predicates::Landing l = landing(shadow.first);
     if (l.at + l.margin < 1) {
-      wave.end = l.at + l.margin;
-      wave.end_trimmed = true;
+      wave.end = std::max(l.at + l.margin, 0.0);
+      wave.trimmed |= kAtEnd;
     }
   }
   if (shadow.last.face == outgoing) {
     const predicates::Landing l = landing(shadow.last);
     if (l.at - l.margin > 0) {
-      wave.begin = l.at - l.margin;
-      wave.begin_trimmed = true;
+      wave.begin = std::min(l.at - l.margin, 1.0);
+      wave.trimmed |= kAtBegin;
     }
   }
-  return wave.begin_trimmed || wave.end_trimmed;
+  return wave.trimmed != 0;
 }
 
 void Propagation::push_lists_at(VertexId v) {

@@ -5,16 +5,21 @@
 #include <queue>
 
 #include "gvd/kernel/distance_field.hpp"
+#include "gvd/robust/double_pair.hpp"
 #include "exact_unfoldings.hpp"
 #include "shadow.hpp"
 #include "window_interval.hpp"
 
 namespace gvd::kernel {
 
+/// What the machine code of the innermost loop may use; the numbers are the same.
+enum class Instructions : std::uint8_t { any, least };
+
 /// The state of one run of `propagate`. Error constants: docs/error-bounds.md#propagation.
 class Propagation {
  public:
-  Propagation(const Frames& frames, const std::vector<VertexKind>& kinds, DistanceField& field, predicates::Decisions& decisions);
+  Propagation(const Frames& frames, const std::vector<VertexKind>& kinds, DistanceField& field, predicates::Decisions& decisions,
+              Instructions instructions = Instructions::any);
   bool run(std::span<const WaveStart> starts, PropagationPoll poll, void* user);
 
  private:
@@ -23,7 +28,7 @@ class Propagation {
 
   /// A window while it waits to cross the face: its numbers in the frame of its half-edge.
   struct alignas(128) Wave : WindowInterval {
-    Image cone0, cone1;
+    robust::DoublePair cone_x, cone_y;     // the vertices that bound the cone
     std::uint16_t begin_turns, end_turns;  // faces crossed in a row about the origin and the target of the half-edge
     std::uint32_t steps;                   // faces crossed
     HalfedgeId mark;                       // an edge that was crossed: the last one at a number of faces that is a power of two
@@ -52,6 +57,7 @@ class Propagation {
     std::uint32_t wave;
   };
   struct Exit;
+  struct Apex;
 
   void settle(VertexId v);
   void relax(VertexId v, const Candidate& candidate);
@@ -77,16 +83,16 @@ class Propagation {
   void cross_face_here(HalfedgeId h);
   void trim_list(HalfedgeId h);
   std::size_t sort_waiting(HalfedgeId h);
-  Sight see_apex(std::uint32_t wave, HalfedgeId h, const Frame& frame, double inverse_length);
+  Sight see_apex(std::uint32_t wave, HalfedgeId h, const Apex& apex);
   static double apex_distance(const Wave& wave, const Frame& frame);
   static bool is_longer_to_apex(const Wave& wave, const Frame& frame, const ApexSight& best);
-  Sight locate_apex(const Wave& wave, HalfedgeId h, const Frame& frame, double disc);
+  Sight locate_apex(const Wave& wave, HalfedgeId h, const Apex& apex, double disc);
   Sight decide_apex(const Wave& wave, HalfedgeId h);
   Exit exit_over(HalfedgeId side, VertexId third, double parent_length, bool left) const;
   template <bool kLeft>
-  void make_child(const Wave& wave, bool at_apex, double parent_reach, Exit& exit);
+  void make_child(const Wave& wave, bool at_apex, Exit& exit);
   template <bool kLeft>
-  static bool is_certainly_longer(const Wave& child, double weight, double error, const Exit& exit);
+  static bool is_certainly_longer(const Image& image, const robust::DoublePair& ends, double rest, const Exit& exit);
   void splice(const Exit& exit);
   void make_room(std::size_t waves);
   void recycle(std::uint32_t wave) {
@@ -102,6 +108,7 @@ class Propagation {
   DistanceField& field_;
   ExactUnfoldings exact_;
   predicates::Decisions& decisions_;
+  const bool by_avx_;
 
   std::vector<Wave> waves_;
   std::uint32_t free_wave_ = kNone;

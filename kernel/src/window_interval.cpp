@@ -113,19 +113,19 @@ void Difference::bracket_root(double g0, double g1, double& left, double& right)
 /// Takes the stretch, in which `winner` is certainly shorter, off `loser` as far as the winner certainly sees it; only an end can be taken off.
 /// True if nothing is left.
 bool cut(WindowInterval& loser, Stretch shorter, const WindowInterval& winner) {
-  const double from = std::max(shorter.from, winner.begin + winner.begin_slack);
-  const double to = std::min(shorter.to, winner.end - winner.end_slack);
+  const double from = std::max(shorter.from, winner.begin + winner.slack.begin);
+  const double to = std::min(shorter.to, winner.end - winner.slack.end);
   if (!(from < to)) return false;
   const bool has_begin = from <= loser.begin, has_end = loser.end <= to;
   if (has_begin && has_end) return true;
-  if (has_begin && to > loser.begin + loser.begin_slack) {
+  if (has_begin && to > loser.begin + loser.slack.begin) {
     loser.begin = to;
-    loser.begin_slack = 0;
-    loser.begin_trimmed = true;
-  } else if (has_end && from < loser.end - loser.end_slack) {
+    loser.slack.begin = 0;
+    loser.trimmed |= kAtBegin;
+  } else if (has_end && from < loser.end - loser.slack.end) {
     loser.end = from;
-    loser.end_slack = 0;
-    loser.end_trimmed = true;
+    loser.slack.end = 0;
+    loser.trimmed |= kAtEnd;
   }
   return false;
 }

@@ -6,16 +6,24 @@
 
 namespace gvd::kernel {
 
+/// The bits of the two ends of a window, beside the origin and beside the target of its half-edge.
+enum WindowEnd : std::uint8_t { kAtBegin = 1, kAtEnd = 2 };
+
+template <class T>
+struct Ends {
+  T begin, end;
+};
+
 /// The numbers of a window in the frame of its half-edge, with error bounds; lengths in scaled units.
 struct WindowInterval {
   predicates::Complex<double> image;
-  double begin, end;             ///< an interval of [0, 1] that contains what is seen and may be shortest
-  double weight;                 ///< D at the root
-  float weight_error;            ///< of the weight
-  float image_error;             ///< radius of a disc about the image (and the cone's vertices), as a length
-  float begin_slack, end_slack;  ///< [begin + begin_slack, end - end_slack] is certainly seen
-  bool begin_trimmed, end_trimmed;  ///< beyond it another window is certainly shorter
-  bool cone0_at_origin, cone1_at_target;  ///< the cone is bounded by an end of the side itself
+  double begin, end;   ///< an interval of [0, 1] that contains what is seen and may be shortest
+  double weight;       ///< D at the root
+  double image_error;  ///< radius of a disc about the image (and the cone's vertices), as a length
+  float weight_error;  ///< of the weight
+  Ends<float> slack;   ///< [begin + slack.begin, end - slack.end] is certainly seen
+  std::uint8_t trimmed;  ///< at these ends: beyond it another window is certainly shorter
+  std::uint8_t bounded;  ///< at these ends: the cone is bounded by the end of the side itself
 };
 
 enum class Trim : std::uint8_t { none, drop_first, drop_second };

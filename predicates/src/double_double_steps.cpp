@@ -9,19 +9,36 @@
 #endif
 
 namespace gvd::predicates {
-namespace {
 
 using robust::DoubleDouble;
+
+namespace {
+
 using Side = Vector<DoubleDouble>;
 using Frame = EdgeFrame<DoubleDouble>;
+
+inline Disc<DoubleDouble> cross_here(const Disc<DoubleDouble>& z, const DoubleDoubleStep& step) {
+  Disc<DoubleDouble> result{turned(z.mid, *step.along, *step.across, step.base), 0};
+  result.radius = radius_after(z, result.mid, length_bound(step.along->hi, step.across->hi), unit<DoubleDouble>(0));
+  return result;
+}
+template <bool kCone>
+inline void unfold_steps_here(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {
+  Unfolding<DoubleDouble> here = at;
+  for (const DoubleDoubleStep& step : steps)
+    unfold_step_by<kCone>(here, step.left, step.bounds, [&](const Disc<DoubleDouble>& z) { return cross_here(z, step); });
+  at = here;
+}
 
 #ifdef GVD_CHOOSES_FMA
 bool has_fma() {
   static const bool has = __builtin_cpu_supports("fma") != 0;
   return has;
 }
-GVD_FMA Disc<DoubleDouble> cross_by_fma(const Disc<DoubleDouble>& z, const Frame& side, bool left, double unit_of_t) {
-  return cross<DoubleDouble>(z, side, left, unit_of_t);
+GVD_FMA Disc<DoubleDouble> cross_by_fma(const Disc<DoubleDouble>& z, const DoubleDoubleStep& step) { return cross_here(z, step); }
+template <bool kCone>
+GVD_FMA void unfold_steps_by_fma(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {
+  unfold_steps_here<kCone>(at, steps);
 }
 GVD_FMA std::array<Frame, 3> face_frames_by_fma(const Side& ab, const Side& bc, const Side& ca) {
   return face_frames<DoubleDouble>(ab, bc, ca);
@@ -30,12 +47,23 @@ GVD_FMA std::array<Frame, 3> face_frames_by_fma(const Side& ab, const Side& bc, 
 
 }  // namespace
 
-Disc<DoubleDouble> cross(const Disc<DoubleDouble>& z, const Frame& side, bool left, double unit_of_t) {
+Disc<DoubleDouble> cross(const Disc<DoubleDouble>& z, const Frame& side, bool left, double) {
+  const DoubleDoubleStep step = step_over(side, left, false);
 #ifdef GVD_CHOOSES_FMA
-  if (has_fma()) return cross_by_fma(z, side, left, unit_of_t);
+  if (has_fma()) return cross_by_fma(z, step);
 #endif
-  return cross<DoubleDouble>(z, side, left, unit_of_t);
+  return cross_here(z, step);
 }
+
+template <bool kCone>
+void unfold_steps(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {
+#ifdef GVD_CHOOSES_FMA
+  if (has_fma()) return unfold_steps_by_fma<kCone>(at, steps);
+#endif
+  unfold_steps_here<kCone>(at, steps);
+}
+template void unfold_steps<false>(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
+template void unfold_steps<true>(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
 
 std::array<Frame, 3> face_frames(const Side& ab, const Side& bc, const Side& ca) {
 #ifdef GVD_CHOOSES_FMA

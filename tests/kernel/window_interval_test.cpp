@@ -20,13 +20,13 @@ WindowInterval random_window(Random& random) {
   w.image = {random.uniform(-2, 3), -std::ldexp(random.uniform(0.5, 1), static_cast<int>(random.below(12)) - 10)};
   w.weight = random.uniform(0, 2);
   const int small = static_cast<int>(random.below(30)) + 8;
-  w.image_error = static_cast<float>(std::ldexp(random.uniform(), -small));
+  w.image_error = std::ldexp(random.uniform(), -small);
   w.weight_error = static_cast<float>(std::ldexp(random.uniform(), -small));
   const double a = random.uniform(), b = random.uniform();
   w.begin = random.below(3) == 0 ? 0 : std::min(a, b);
   w.end = random.below(3) == 0 ? 1 : std::max(a, b);
-  w.begin_slack = random.below(2) == 0 ? 0 : static_cast<float>(random.uniform() * 0.1);
-  w.end_slack = random.below(2) == 0 ? 0 : static_cast<float>(random.uniform() * 0.1);
+  w.slack.begin = random.below(2) == 0 ? 0 : static_cast<float>(random.uniform() * 0.1);
+  w.slack.end = random.below(2) == 0 ? 0 : static_cast<float>(random.uniform() * 0.1);
   return w;
 }
 
@@ -47,15 +47,15 @@ void expect_loser(const WindowInterval& was, const WindowInterval& cut, bool dro
   for (int i = 0; i <= 64; ++i) {
     const double x = was.begin + (was.end - was.begin) * i / 64;
     if (!dropped && x >= cut.begin && x <= cut.end) continue;
-    ASSERT_GE(x, other.begin + other.begin_slack);
-    ASSERT_LE(x, other.end - other.end_slack);
+    ASSERT_GE(x, other.begin + other.slack.begin);
+    ASSERT_LE(x, other.end - other.slack.end);
     for (int k = 0; k < 4; ++k) ASSERT_LT(Truth(other, random)(x), Truth(was, random)(x)) << "at " << x;
   }
   if (!dropped && cut.begin > was.begin) {
-    ASSERT_GE(cut.begin, was.begin + was.begin_slack);
+    ASSERT_GE(cut.begin, was.begin + was.slack.begin);
   }
   if (!dropped && cut.end < was.end) {
-    ASSERT_LE(cut.end, was.end - was.end_slack);
+    ASSERT_LE(cut.end, was.end - was.slack.end);
   }
 }
 
@@ -103,7 +103,7 @@ TEST(WindowInterval, SlackAtTheOtherEndDoesNotHinder) {
   second.begin = 0.25;
   second.end = 1;
   first.image_error = second.image_error = 1e-15F;
-  first.end_slack = second.begin_slack = 1e-12F;
+  first.slack.end = second.slack.begin = 1e-12F;
   EXPECT_EQ(kernel::trim(first, second, kLength), Trim::none);
   EXPECT_NEAR(first.end, 0.5, 1e-6);
   EXPECT_NEAR(second.begin, 0.5, 1e-6);

@@ -29,8 +29,12 @@ class Frames {
   /// Errors of all number types: docs/error-bounds.md#frames.
   const std::vector<predicates::EdgeFrame<double>>& in_double() const noexcept { return double_; }
   const predicates::EdgeFrame<double>& operator()(HalfedgeId h) const noexcept { return double_[h]; }
-  /// Cached.
-  const predicates::EdgeFrame<robust::DoubleDouble>& in_double_double(HalfedgeId h) const;
+  /// Cached: the reference stays.
+  const predicates::EdgeFrame<robust::DoubleDouble>& in_double_double(HalfedgeId h) const {
+    const std::atomic<std::uint8_t>* const states = states_.load(std::memory_order_acquire);
+    if (states == nullptr || states[Mesh::face(h)].load(std::memory_order_acquire) != kReady) make_in_double_double(Mesh::face(h));
+    return double_double_[h].frame;
+  }
   /// Cost: some hundred MPFR operations; not cached.
   std::array<predicates::EdgeFrame<robust::Mpfr>, 3> in_mpfr(FaceId f, int bits) const;
   /// In scaled units. Here and in the next two, the last ones made are cached.
@@ -56,8 +60,14 @@ class Frames {
   int scale_ = 0;
   bool underflow_ = false;
   std::vector<predicates::EdgeFrame<double>> double_;
-  mutable std::vector<predicates::EdgeFrame<robust::DoubleDouble>> double_double_;
-  mutable std::unique_ptr<std::atomic<std::uint8_t>[]> state_;  // per face: 0 empty, 1 being made, 2 ready
+  struct alignas(64) CacheLine {
+    predicates::EdgeFrame<robust::DoubleDouble> frame;
+  };
+  enum State : std::uint8_t { kEmpty, kBeingMade, kReady };
+  void make_in_double_double(FaceId f) const;
+  mutable std::vector<CacheLine> double_double_;
+  mutable std::unique_ptr<std::atomic<std::uint8_t>[]> state_;        // per face
+  mutable std::atomic<const std::atomic<std::uint8_t>*> states_{nullptr};  // the same, once they are there
   mutable std::once_flag allocate_;
   ExactFace make_exact(FaceId f) const;
   struct Exactly {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gvd/predicates/frame.hpp"
+#include "gvd/robust/double_pair.hpp"
 
 namespace gvd::predicates {
 
@@ -24,21 +25,25 @@ inline Landing land(const Complex<double>& image, const Complex<double>& p, doub
   return {image.x - run * lift, 4 * disc * (1 + std::fabs(lift)) * (1 + std::fabs(run) / rise)};
 }
 
-/// And where the rays through the points p + t along, |t| <= slack, land: within `reach` of `at`.
+/// And where the rays through the points p + t along, |t| <= slack, land: within `reach` of `at`. Nothing is known unless `known`.
+template <class N, class Known>
 struct StretchedLanding {
-  double at, margin, reach;
+  N at, margin, reach;
+  Known known;
 };
 
-/// `size`: |along|, rounded. Pre: p is not above the side.
-[[gnu::always_inline]] inline StretchedLanding land(const Complex<double>& image, const Complex<double>& p, double disc, double slack, const Complex<double>& along,
-                             double size) noexcept {
-  const double rise = p.y - image.y;
-  if (!(rise > 4 * disc)) return {kNoLanding.at, kNoLanding.margin, kNoLanding.margin};
-  const double run = p.x - image.x, per_rise = 1 / rise;
-  const double lift = image.y * per_rise, tilt = run * per_rise;
-  const double margin = 4 * disc * (1 + std::fabs(lift)) * (1 + std::fabs(tilt));
-  const double stretch = slack * std::fabs(lift * (along.x - tilt * along.y));
-  return {image.x - run * lift, margin, rise > 128 * slack * size ? 1.5 * margin + (1 + 0x1p-6) * stretch : kNoLanding.margin};
+/// `size`: |along|, rounded. N: double, or DoublePair for two points at once. Pre: p is not above the side.
+template <class N>
+[[gnu::always_inline]] inline auto land(const Complex<double>& image, const Complex<N>& p, double disc, const N& slack, const Complex<double>& along,
+                                        double size) noexcept {
+  using robust::abs;
+  using std::abs;
+  const N rise = p.y - image.y, run = p.x - image.x, per_rise = 1 / rise;
+  const N lift = image.y * per_rise, tilt = run * per_rise;
+  const N margin = 4 * disc * (1 + abs(lift)) * (1 + abs(tilt));
+  const N stretch = slack * abs(lift * (along.x - tilt * along.y));
+  const auto known = (rise > 4 * disc) & (rise > 128 * size * slack);
+  return StretchedLanding<N, decltype(known)>{image.x - run * lift, margin, 1.5 * margin + (1 + 0x1p-6) * stretch, known};
 }
 
 }  // namespace gvd::predicates

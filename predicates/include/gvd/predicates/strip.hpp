@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <type_traits>
 #include <vector>
 
+#include "gvd/predicates/double_double_turn.hpp"
 #include "gvd/predicates/frame.hpp"
 #include "gvd/robust/ball.hpp"
 
@@ -58,17 +62,22 @@ double rough_size(const Complex<T>& z) {
 /// An upper bound of sqrt(x^2 + y^2): the second summand is above what underflows.
 inline double length_bound(double x, double y) { return std::sqrt(x * x + y * y) * (1 + 0x1p-40) + 0x1p-500; }
 
+/// The radius of z's disc after a turn by a factor of length at most `turn` that leads to `to`: relative error of the frame and of the product, both below
+/// kUnfoldingStep / 2 units of the sizes added here. What waits for the former radius is one product and one sum.
+template <class T>
+double radius_after(const Disc<T>& z, const Complex<T>& to, double turn, double unit_of_t) {
+  const double size = (rough_size(z.mid) + 1) * turn + rough_size(to) + 1;
+  return z.radius * (turn * (1 + 0x1p-40)) + (kUnfoldingStep * (1 + 0x1p-40) * unit_of_t * size + 0x1p-1000);
+}
+
 template <class T>
 Disc<T> cross(const Disc<T>& z, const EdgeFrame<T>& side, bool left, double unit_of_t) {
   Disc<T> result{left ? cross_left(z.mid, side) : cross_right(z.mid, side), 0};
-  // |q| of the turn: relative error of the frame and of the product, both below kUnfoldingStep / 2 units of the sizes added here.
-  const double turn = length_bound(rough(left ? side.v : side.u), rough(side.y));
-  const double size = (rough_size(z.mid) + 1 + z.radius) * turn + rough_size(result.mid) + 1;
-  result.radius = (z.radius * turn + kUnfoldingStep * unit_of_t * size) * (1 + 0x1p-40) + 0x1p-1000;
+  result.radius = radius_after(z, result.mid, length_bound(rough(left ? side.v : side.u), rough(side.y)), unit_of_t);
   return result;
 }
 
-/// The same numbers, by the processor's own fused multiply-add where it has one.
+/// In double-double, by the processor's own fused multiply-add where it has one.
 Disc<robust::DoubleDouble> cross(const Disc<robust::DoubleDouble>& z, const EdgeFrame<robust::DoubleDouble>& side, bool left, double unit_of_t);
 
 template <class T>
@@ -97,28 +106,53 @@ Unfolding<T> unfold_first(const EdgeFrame<T>& opposite, double unit_of_t) {
   return at;
 }
 
-/// One face further, over `side`; `bounds` as in StripStep.
-template <class T, bool kCone = true>
-void unfold_step(Unfolding<T>& at, const EdgeFrame<T>& side, bool left, bool bounds, double unit_of_t) {
-  at.image = cross(at.image, side, left, unit_of_t);
+/// One face further, for a way to cross it; `bounds` as in StripStep.
+template <bool kCone, class T, class Cross>
+void unfold_step_by(Unfolding<T>& at, bool left, bool bounds, const Cross& cross) {
+  at.image = cross(at.image);
   if constexpr (kCone) {
-    if (bounds && !left)
-      at.cone0 = {{T(0.0), T(0.0)}, 0};
-    else
-      at.cone0 = cross(at.cone0, side, left, unit_of_t);
-    if (bounds && left)
-      at.cone1 = {{T(1.0), T(0.0)}, 0};
-    else
-      at.cone1 = cross(at.cone1, side, left, unit_of_t);
+    at.cone0 = bounds && !left ? Disc<T>{{T(0.0), T(0.0)}, 0} : cross(at.cone0);
+    at.cone1 = bounds && left ? Disc<T>{{T(1.0), T(0.0)}, 0} : cross(at.cone1);
   }
 }
+template <class T, bool kCone = true>
+void unfold_step(Unfolding<T>& at, const EdgeFrame<T>& side, bool left, bool bounds, double unit_of_t) {
+  unfold_step_by<kCone>(at, left, bounds, [&](const Disc<T>& z) { return cross(z, side, left, unit_of_t); });
+}
 
-/// Unfolds a strip; `frame(h)` gives EdgeFrame<T>. With `kCone` false the cone is not computed. Cost: one complex product a face and point.
+/// A step with its numbers at hand: those that `turned` takes.
+struct DoubleDoubleStep {
+  const robust::DoubleDouble *along, *across;
+  double base;
+  bool left, bounds;
+};
+inline DoubleDoubleStep step_over(const EdgeFrame<robust::DoubleDouble>& side, bool left, bool bounds) {
+  return {left ? &side.v : &side.u, &side.y, static_cast<double>(!left), left, bounds};
+}
+/// The same numbers as by `unfold_step` for each, by the processor's own fused multiply-add where it has one.
+template <bool kCone>
+void unfold_steps(Unfolding<robust::DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
+extern template void unfold_steps<false>(Unfolding<robust::DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
+extern template void unfold_steps<true>(Unfolding<robust::DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
+
+/// Unfolds a strip; `frame(h)` gives EdgeFrame<T>, for double-double by a reference that stays. With `kCone` false the cone is not computed.
+/// Cost: one complex product a face and point.
 template <class T, bool kCone = true, class FrameOf>
 Unfolding<T> unfold(const Strip& strip, FrameOf&& frame, int bits = 0) {
   const double u = unit<T>(bits);
   Unfolding<T> at = unfold_first<T>(frame(strip.opposite), u);
-  for (const StripStep& step : strip.steps) unfold_step<T, kCone>(at, frame(step.side), step.left, step.bounds, u);
+  if constexpr (std::is_same_v<T, robust::DoubleDouble>) {
+    static_assert(std::is_lvalue_reference_v<decltype(frame(strip.opposite))>);
+    std::array<DoubleDoubleStep, 32> next;
+    std::size_t n = 0;
+    for (const StripStep& step : strip.steps) {
+      next[n++] = step_over(frame(step.side), step.left, step.bounds);
+      if (n == next.size()) unfold_steps<kCone>(at, next), n = 0;
+    }
+    unfold_steps<kCone>(at, std::span(next).first(n));
+  } else {
+    for (const StripStep& step : strip.steps) unfold_step<T, kCone>(at, frame(step.side), step.left, step.bounds, u);
+  }
   return at;
 }
 

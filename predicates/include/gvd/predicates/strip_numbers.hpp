@@ -40,9 +40,7 @@ class DiscNumbers {
   Point cross_back(const Point& z, std::uint32_t h, bool left) {
     const EdgeFrame<T>& f = frame_(h);
     Point result{predicates::cross_back(z.mid, f, left), 0};
-    const double turn = length_bound(rough(left ? f.u : f.v), rough(f.y));
-    const double size = (rough_size(z.mid) + 1 + z.radius) * turn + rough_size(result.mid) + 1;
-    result.radius = (z.radius * turn + kUnfoldingStep * unit_ * size) * (1 + 0x1p-40) + 0x1p-1000;
+    result.radius = radius_after(z, result.mid, length_bound(rough(left ? f.u : f.v), rough(f.y)), unit_);
     return result;
   }
   /// Where the segment from a point below the side [0, 1] to one above meets its line.
