@@ -107,11 +107,15 @@ inline void Propagation::cross_face_here(HalfedgeId h) {
   const Frame& frame = frames_[h];
   const double size = norm1(frame.u, frame.y);
   const Apex apex{frame, 1 / frame.length, size, kFrameError * size};
-  for (std::size_t k = 0; k < kept_; ++k) sights_of_list_[k] = see_apex(list_[k].wave, h, apex);  // may add waves
+  for (std::size_t k = 0; k < kept_; ++k) {
+    prefetch_ahead();
+    sights_of_list_[k] = see_apex(list_[k].wave, h, apex);  // may add waves
+  }
   make_room(2 * kept_);
   Exit left = exit_over(Mesh::prev(h), mesh_.target(h), frame.length, true), right = exit_over(Mesh::next(h), mesh_.origin(h), frame.length, false);
   const ApexSight best = sides_[h].sight;
   for (std::size_t k = 0; k < kept_; ++k) {
+    prefetch_ahead();
     const Wave& wave = waves_[list_[k].wave];
     const Sight sight = sights_of_list_[k];
     if (left.target != kNone && sight != Sight::beyond_0 && sight != Sight::on_ray_0) {
@@ -132,6 +136,15 @@ inline void Propagation::cross_face_here(HalfedgeId h) {
   for (std::size_t k = 0; k < kept_; ++k) recycle(list_[k].wave);
   splice(left);
   splice(right);
+}
+
+/// The next wave of the list that is crossed next: a wave is where the one before it says, so each has to be fetched before it tells of the next.
+inline void Propagation::prefetch_ahead() {
+  if (ahead_ == kNone) return;
+  ahead_ = waves_[ahead_].next;
+  if (ahead_ == kNone) return;
+  __builtin_prefetch(&waves_[ahead_]);
+  __builtin_prefetch(&waves_[ahead_].next);
 }
 
 inline double Propagation::apex_distance(const Wave& wave, const Frame& frame) {

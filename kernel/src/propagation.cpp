@@ -299,11 +299,11 @@ void Propagation::push(HalfedgeId h) {
   fifo_.push_back(h);
 }
 
-/// What crossing the face above h will need first.
-void Propagation::prefetch(HalfedgeId h) const {
-  const Wave* const wave = &waves_[sides_[h].waiting.first];
-  __builtin_prefetch(wave);
-  __builtin_prefetch(&wave->next);
+/// What crossing the face above h will need first; `prefetch_ahead` fetches the waves that follow.
+void Propagation::prefetch(HalfedgeId h) {
+  ahead_ = sides_[h].waiting.first;
+  __builtin_prefetch(&waves_[ahead_]);
+  __builtin_prefetch(&waves_[ahead_].next);
   const Frame* const frame = &frames_[3 * Mesh::face(h)];
   __builtin_prefetch(frame);
   __builtin_prefetch(frame + 2);
@@ -317,6 +317,7 @@ bool Propagation::drain() {
     to_send_again_.clear();
     if (fifo_head_ == fifo_.size()) break;
     const HalfedgeId h = fifo_[fifo_head_++];
+    ahead_ = kNone;
     if (fifo_head_ < fifo_.size()) prefetch(fifo_[fifo_head_]);
     sides_[h].waiting.queued = false;
     cross_face(h);

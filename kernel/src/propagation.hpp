@@ -75,7 +75,8 @@ class Propagation {
   bool cut_at_shadow(const Shadow& shadow, HalfedgeId outgoing, Wave& wave);
   void push_lists_at(VertexId v);
   void push(HalfedgeId h);
-  void prefetch(HalfedgeId h) const;
+  void prefetch(HalfedgeId h);
+  void prefetch_ahead();
   bool drain();
   bool may_go_on();
   void cross_face(HalfedgeId h);
@@ -116,6 +117,7 @@ class Propagation {
   std::vector<Side> sides_;
   std::vector<HalfedgeId> fifo_;
   std::size_t fifo_head_ = 0;
+  std::uint32_t ahead_ = kNone;               // a wave of the list that is crossed next, fetched
   std::vector<double> upper_;                 // per vertex: certain upper bound of D
   std::vector<std::uint8_t> settled_;
   std::vector<std::uint16_t> degree_;         // faces at a vertex
