@@ -176,6 +176,9 @@ Outcome cells_are_connected(Trial& t) {
   const Nodes nodes(mesh, d);
   std::set<FaceId> cut;
   for (const auto& piece : d.pieces) cut.insert(piece.face);
+  std::map<std::array<VertexId, 2>, std::vector<std::uint32_t>> on_edge;
+  for (std::uint32_t p = 0; p < d.points.size(); ++p)
+    if (d.points[p].edge[0] != kNone) on_edge[d.points[p].edge].push_back(p);
   for (SourceId s = 0; s < t.sources().size(); ++s) {
     const auto owns = [&](kernel::LabelSetId set) {
       return set != kNone && std::binary_search(d.label_sets[set].begin(), d.label_sets[set].end(), s);
@@ -192,7 +195,11 @@ Outcome cells_are_connected(Trial& t) {
     for (FaceId f = 0; f < mesh.face_count(); ++f) {
       if (cut.count(f) != 0 || !owns(d.face_label[f])) continue;
       elements.push_back({mesh.origin(3 * f), f});
-      for (kernel::HalfedgeId h = 3 * f; h < 3 * f + 3; ++h) parts.join(mesh.origin(3 * f), mesh.origin(h));
+      for (kernel::HalfedgeId h = 3 * f; h < 3 * f + 3; ++h) {
+        parts.join(mesh.origin(3 * f), mesh.origin(h));
+        const VertexId a = mesh.origin(h), b = mesh.target(h);
+        for (const std::uint32_t p : on_edge[{std::min(a, b), std::max(a, b)}]) parts.join(mesh.origin(3 * f), nodes.of_point(p));
+      }
     }
     for (const auto& [node, face] : elements)
       if (parts.root(node) != parts.root(elements[0].first))

@@ -141,7 +141,7 @@ void Contenders::find_tangencies(FacetLadder& ladder) {
         if (relay.root != parent.cone[end] || !parent.attains_cone[end]) continue;
         const auto& sites = ladder.filter().sites;
         if (separated(sites[relay.site]->image, sites[parent.cone_site[end]]->cone[end])) continue;  // it went another way round
-        if (relay.corner == FacetSite::kNoCorner && !waves_.is_own_relay(parent.cone_site[end], relay.site)) continue;
+        if (relay.corner == FacetSite::kNoCorner && !waves_.is_at_cone_vertex(parent.cone_site[end], relay.site)) continue;
         tangent_[p * n + r] = static_cast<signed char>(end);
       }
     }

@@ -226,7 +226,8 @@ bool EdgeJoiner::contradict(const View& view, std::span<const Piece> of_left, st
 }
 
 /// The inner events [from, to) of one side that lie between two consecutive stations; one that lies in the very place of either
-/// becomes a part of it. Stations of the own side bound them by their order; the others are compared. Nothing if that fails.
+/// becomes a part of it, and the last one passed before the stretch is noted. Stations of the own side bound them by their order; the others are
+/// compared. Nothing if that fails.
 std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& view, bool of_left, std::size_t from, std::size_t to,
                                                                  Station* before, Station* behind) {
   const SideView& side = of_left ? view.of_left : view.of_right;
@@ -249,6 +250,8 @@ std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& vie
     if (low == Order::unknown || high == Order::unknown) return std::nullopt;
     for (Station* station : {low == Order::equal ? before : nullptr, high == Order::equal ? behind : nullptr})
       if (station != nullptr) (of_left ? station->node_left : station->node_right) = side.events[event].node;
+    if (of_left && low == Order::less) before->passed_left = side.events[event].node;
+    if (!of_left && high == Order::greater && behind->passed_right == kNone) behind->passed_right = side.events[event].node;
     if (low == Order::greater && high == Order::less) found.push_back(event);
   }
   return found;

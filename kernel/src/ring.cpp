@@ -416,10 +416,11 @@ std::optional<Ring::Direction> Ring::next_change(const Direction& from, std::uin
 }
 
 /// Along a side d, where two waves with mirrored directions grow alike to first order: the one with the lower weight is nearer
-/// there, and keeps a part of the facet between the side and a bisector that touches it. That wave, if it is not `inward`, the
-/// nearest just inside.
+/// there, and keeps a part of the facet between the side and a bisector that touches it. That wave (of several in one line the one that is
+/// nowhere farther), if it is not `inward`, the nearest just inside.
 std::optional<std::uint32_t> Ring::along_side(const Direction& d, Beside beside, std::uint32_t inward) {
   if (tied_[inward].starts_here) return inward;
+  std::uint32_t best = inward;
   for (std::uint32_t i = 0; i < tied_.size(); ++i) {
     const std::uint32_t a = tied_[i].contender, b = tied_[inward].contender;
     if (tied_[i].starts_here || contenders_[a].root == contenders_[b].root) continue;
@@ -432,11 +433,11 @@ std::optional<std::uint32_t> Ring::along_side(const Direction& d, Beside beside,
     const auto visible = seen(i, d, beside);
     if (!gain || !visible) return std::nullopt;
     if (!*visible) continue;
-    const MaybeSign lighter = behind(i, inward);
+    const MaybeSign lighter = behind(i, best);
     if (!lighter) return std::nullopt;
-    if (*lighter == Sign::positive) return i;
+    if (*lighter == Sign::positive) best = i;
   }
-  return inward;
+  return best;
 }
 
 /// The regions by direction, between those that have the sides themselves.

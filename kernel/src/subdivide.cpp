@@ -155,7 +155,10 @@ class Subdivider {
     auto& theirs = stations_[3 * g + twin % 3];
     mine = joint.stations;
     theirs.assign(joint.stations.rbegin(), joint.stations.rend());
-    for (Station& station : theirs) std::swap(station.node_left, station.node_right);
+    for (Station& station : theirs) {
+      std::swap(station.node_left, station.node_right);
+      std::swap(station.passed_left, station.passed_right);
+    }
   }
 
   void give_places(HalfedgeId h, std::uint32_t f, std::uint32_t g, std::vector<Station>& stations, bool open) {
@@ -214,12 +217,9 @@ class Subdivider {
     side_first_[k] = add_dart(
         {.from = s_.vertex_place[v], .facet = f, .halfedge = h, .site = view.pieces[0].site, .labels = view.pieces[0].labels});
     for (const Station& station : stations_[3 * f + k]) {
-      if (station.node_left != kNone) {
-        node_place_[station.node_left] = station.place;
-        const auto event =
-            std::find_if(view.events.begin(), view.events.end(), [&](const Event& e) { return e.node == station.node_left; });
-        piece = event->after;
-      }
+      if (station.node_left != kNone) node_place_[station.node_left] = station.place;
+      if (const std::uint32_t last = station.node_left != kNone ? station.node_left : station.passed_left; last != kNone)
+        piece = std::find_if(view.events.begin(), view.events.end(), [&](const Event& e) { return e.node == last; })->after;
       add_dart(
           {.from = station.place, .facet = f, .halfedge = h, .site = view.pieces[piece].site, .labels = view.pieces[piece].labels});
     }

@@ -101,6 +101,9 @@ bool any_pair(const Skeleton& left, std::uint32_t left_site, const Skeleton& rig
 struct Station {
   std::uint32_t place = kNone;
   std::uint32_t node_left = kNone, node_right = kNone;  ///< of the facet of the half-edge, of the facet of its twin
+  /// Where a facet has no node at the station: its last one before, going along its own half-edge, if that is no station and the station begins a stretch
+  /// on which the facets differ.
+  std::uint32_t passed_left = kNone, passed_right = kNone;
 };
 
 /// Joins what the two facets of an edge show on it.

@@ -188,6 +188,7 @@ bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const
   const auto since = sides_since(sites[parent].window, v);
   if (!since || !is_image_of_root(*since, relay)) return false;
   const WindowId w = arrival(sites[parent].window, v);
+  if (w == sites[parent].window) return false;  // it comes to the vertex once more, as a corner of this facet
   if (w == kNone) return resolution_.attains_along_edge(sites[parent].root, v);
   return resolution_.attains(w, v) || resolution_.is_as_far(w, v);
 }

@@ -96,6 +96,10 @@ class FacetWaves {
     return false;
   }
 
+  /// Whether the image of `relay`, whose root bounds the cone of window `parent` and is attained there, is that vertex of the cone by identity: the
+  /// parent's strip saw the root in that one place only, and the relay's image is there. Asked only where doubles cannot exclude it, as is_own_relay.
+  virtual bool is_at_cone_vertex(std::size_t parent, std::size_t relay) { return is_own_relay(parent, relay); }
+
   /// Whether the root of `relay`, on the strip of window `parent` (is_own_relay), lies on boundary ray `end` of the parent by identity: the nearest path
   /// to the farther one of that root and the cone's vertex comes straight through the nearer one. True is a proof, false says nothing.
   virtual bool is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) {
