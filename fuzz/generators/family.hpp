@@ -35,12 +35,12 @@ struct Pattern {
 std::span<const Pattern> patterns();
 
 /// Changes whenever a seed may give another case.
-inline constexpr int kGeneratorVersion = 1;
+inline constexpr int kGeneratorVersion = 2;
 
 /// What is asked of a case; what is left out is drawn.
 struct Wish {
   std::string family, pattern;  ///< empty: drawn
-  std::uint32_t size = 0;       ///< 0: drawn, mostly 2 .. 6
+  std::uint32_t size = 0;       ///< 0: drawn, mostly 2 .. 4, seldom up to 10
   std::uint32_t sources = 0;    ///< 0: drawn, one to some, seldom hundreds
   int weighted = -1;            ///< 0 no, 1 yes, -1 drawn
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -18,8 +19,18 @@ const auto& chosen(const Table& table, const std::string& name, Draw& draw) {
   throw std::invalid_argument("nothing is called '" + name + "'");
 }
 
-std::uint32_t drawn_size(Draw& draw) { return draw.one_in(40) ? 7 + draw.below(4) : 2 + draw.below(5); }
-std::uint32_t drawn_sources(Draw& draw) { return draw.one_in(200) ? 20 + draw.below(180) : 1 + draw.below(draw.one_in(4) ? 9 : 4); }
+/// Small meshes mostly: what a case costs grows with the mesh, and most faults show on few faces. About 28 faces on average.
+std::uint32_t drawn_size(Draw& draw) {
+  constexpr std::array<std::uint32_t, 20> kUsual = {2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 5, 5, 5, 6, 6};
+  return draw.one_in(40) ? 7 + draw.below(4) : kUsual[draw.below(kUsual.size())];
+}
+/// A hundred sources on a small mesh cost as much as hundreds of other cases.
+std::uint32_t drawn_sources(Draw& draw) {
+  const std::uint32_t rare = draw.below(2000);
+  if (rare == 0) return 100 + draw.below(100);
+  if (rare < 8) return 20 + draw.below(30);
+  return 1 + draw.below(draw.one_in(4) ? 9 : 4);
+}
 
 /// The longest difference of coordinates, as a power of two: weights are of that order.
 int extent_exponent(const kernel::MeshArrays& mesh) {

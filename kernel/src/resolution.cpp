@@ -427,8 +427,16 @@ bool Resolution::is_as_far(WindowId window, VertexId v) const {
   return known.load(std::memory_order_relaxed) == yes;
 }
 
+/// Whether the square of an image in these sums of roots takes longer than the span test.
+bool Resolution::has_long_image(WindowId window) const {
+  constexpr std::size_t kFewTerms = 4;
+  const auto at = window == kNone ? nullptr : exact_unfolding(window);
+  return at && std::max(at->image.x.terms().size(), at->image.y.terms().size()) > kFewTerms;
+}
+
 bool Resolution::proves_as_far(WindowId window, VertexId v) const {
   const auto leg_of = [&](const Candidate& c) { return Leg{c.window, c.via, v, squared_leg(c, v)}; };
+  const auto strip_of_leg = [&](const Candidate& c) { return Leg{c.window, c.via, v, std::nullopt}; };
   Candidate through{};
   through.window = window;
   through.via = field_.windows[window].root;
@@ -436,6 +444,7 @@ bool Resolution::proves_as_far(WindowId window, VertexId v) const {
   for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
     const Candidate& other = field_.candidates[c];
     if (other.via != through.via || !may_vanish(enclosed - enclosed_leg(other, v))) continue;
+    if (has_long_image(window) && are_equal(strip_of_leg(through), strip_of_leg(other))) return true;
     if (are_equal(leg_of(through), leg_of(other))) return true;
   }
   return false;

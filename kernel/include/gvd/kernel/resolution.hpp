@@ -119,6 +119,7 @@ class Resolution {
   };
   std::optional<Path> exact_path(const Candidate& c, VertexId v) const;
   std::optional<robust::RootSum> squared_leg(const Candidate& c, VertexId v) const;
+  bool has_long_image(WindowId window) const;
   bool proves_as_far(WindowId window, VertexId v) const;
   robust::Ball<robust::DoubleDouble> enclosed_leg(const Candidate& c, VertexId v) const;
   bool are_equal(const Leg& a, const Leg& b) const;
