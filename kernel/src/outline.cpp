@@ -114,6 +114,7 @@ std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::filtered_events(std:
 /// The waves that take over from `from` first after `previous`; several if they do so at the same point.
 std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::size_t side, std::uint32_t from,
                                                                         const std::optional<Event>& previous) {
+  touched_ = false;
   if (auto filtered = filtered_events(side, from, previous)) return filtered;
   std::vector<Event> first;
   const double low = previous && previous->filtered ? previous->filtered->t.lower() : 0;
@@ -121,6 +122,7 @@ std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::siz
   for (std::uint32_t to = 0; to < contenders_.size(); ++to) {
     const FacetFilter::Stretch& stretch = filter_[to].stretch[side];
     if (to == from || stretch.high < low || stretch.low > high) continue;
+    touched_ = touched_ || may_touch(side, from, to);
     std::optional<Event> event = candidate(side, from, to);
     if (!event) {
       if (ladder_.failed()) return std::nullopt;
@@ -218,6 +220,14 @@ std::array<std::uint32_t, 2> OutlineWalk::twins_that_touch(std::size_t side, std
   for (std::uint32_t i = 0; i < contenders_.size(); ++i)
     if (touch(from, i) && stands_for(i, to)) return {from, i};
   return {from, to};
+}
+
+/// Whether two waves may touch in a point of the side without crossing there, as far as identity and doubles can tell.
+bool OutlineWalk::may_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const {
+  const Contender &a = contenders_[from], &b = contenders_[to];
+  const auto& numbers = ladder_.filter();
+  return contenders_.mirrored(from, to, side) == Sign::zero &&
+         !maybe_sign(predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root));
 }
 
 /// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it
@@ -405,9 +415,10 @@ bool OutlineWalk::pass_event(std::size_t side, const std::vector<Event>& tied) {
   for (const Event& event : tied)
     if (event.to != first.from) waves.push_back(event.to);
   Ring ring(waves_, contenders_, ladder_);
-  // Where a view ends, a wave that only touched along the side may be next, without crossing anything.
+  // Where a view ends, a wave that only touched along the side may be next, without crossing anything; and where another one takes over, a wave that
+  // touches `from` in this very point may have a region in between.
   const bool any_ray = std::any_of(tied.begin(), tied.end(), [](const Event& event) { return event.ray != FacetTessellation::kNoSite; });
-  if (any_ray && !ring.add_ties(node, waves)) return false;
+  if ((any_ray || touched_) && !ring.add_ties(node, waves)) return false;
   passed_ = waves;
   std::vector<std::uint32_t> ahead{first.to, first.from};
   if (waves.size() > 2 || tied.size() > 1 || first.on_ray) {

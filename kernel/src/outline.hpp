@@ -56,6 +56,7 @@ class OutlineWalk {
   std::optional<Event> candidate(std::size_t side, std::uint32_t from, std::uint32_t to);
   std::array<std::uint32_t, 2> twins_that_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const;
   bool ray_is_through_corner(std::size_t side, const Event& event) const;
+  bool may_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const;
   std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
   bool ties_at_corners(const Event& event) const;
@@ -83,6 +84,7 @@ class OutlineWalk {
   CornerOrder corners_;
   FacetTessellation& result_;
   std::vector<Occurrence> list_;
+  bool touched_ = false;               ///< whether another wave may touch the one that the next event takes over from
   std::vector<std::uint32_t> passed_;  ///< the waves known to tie, and to be seen, at the side's last event
 };
 
