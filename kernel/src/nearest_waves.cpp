@@ -19,6 +19,11 @@ using robust::Exact;
 using robust::RootSum;
 using robust::Sign;
 
+template <class NT>
+constexpr robust::Stage kStageOf = std::is_same_v<NT, FacetWaves::F>    ? robust::Stage::filter
+                                   : std::is_same_v<NT, FacetWaves::DD> ? robust::Stage::double_double
+                                                                        : robust::Stage::mpfr;
+
 class NearestSearch {
  public:
   NearestSearch(const Resolution& resolution, FieldWaves& waves, const RefinedPoint& at, bool to_one_path)
@@ -40,6 +45,7 @@ class NearestSearch {
   /// Drops the waves that are certainly not nearest; true if nothing is left to decide.
   template <class NT>
   bool compare(int bits) {
+    constexpr robust::Stage stage = kStageOf<NT>;
     const auto& frame = frame_in<NT>(waves_, bits);
     const NT b1 = robust::from<NT>(at_.bary[1], bits), b2 = robust::from<NT>(at_.bary[2], bits);
     const PlanePoint<NT> p{b1 + b2 * frame.apex.x, b2 * frame.apex.y};
@@ -62,6 +68,7 @@ class NearestSearch {
       if (!beaten) kept.push_back(i);
     }
     if (kept.empty()) throw InternalError("no wave reaches a point of face " + std::to_string(waves_.face));
+    result_.stage = stage;
     return conclude<NT>(sites, distance, kept);
   }
 
@@ -114,6 +121,7 @@ class NearestSearch {
     const auto ball = least->enclosure(kBits);
     result_.distance = {*value, ball.lower(), ball.upper()};
     result_.is_decided = result_.is_one_path = true;
+    result_.stage = robust::Stage::algebra;
     return true;
   }
 

@@ -17,6 +17,7 @@ struct NearestWaves {
   Enclosed distance;         ///< mesh units; the value is correctly rounded if `is_decided`
   bool is_decided = false;   ///< the distance is rounded, and all sites have one label set or are exactly tied
   bool is_one_path = false;  ///< all sites are certainly nearest
+  robust::Stage stage = robust::Stage::filter;  ///< the last one that was asked
 };
 
 /// Decides which waves of a facet are nearest at one of its points. With `to_one_path` it also decides between waves of the same

@@ -27,6 +27,7 @@ void answer_vertex(const Solution::Impl& state, VertexId v, PointAnswer& answer)
   predicates::Decisions decisions;
   answer.distance = rounded_distance(*state.resolution, v, decisions);
   answer.undecided = decisions.total(robust::Stage::undecided) > 0;
+  while (decisions.total(answer.stage) == 0) answer.stage = static_cast<robust::Stage>(static_cast<int>(answer.stage) + 1);
   const auto d = state.resolution->distance(v).scaled(state.frames->scale());
   answer.enclosure = {answer.distance, d.lower(), d.upper()};
   answer.nearest = state.label_sets[state.resolution->labels(v)];
@@ -51,6 +52,7 @@ AnsweredPoint answer_point(const Solution::Impl& state, const SurfacePoint& at, 
     result.answer.distance = result.nearest.distance.value;
     result.answer.enclosure = result.nearest.distance;
     result.answer.undecided = !result.nearest.is_decided;
+    result.answer.stage = result.nearest.stage;
     for (const std::uint32_t i : result.nearest.sites) {
       const auto& labels = state.label_sets[result.waves->sites[i].labels];
       result.answer.nearest.insert(result.answer.nearest.end(), labels.begin(), labels.end());

@@ -83,6 +83,7 @@ struct PointAnswer {
   std::vector<SourceId> nearest;  ///< all nearest sources, sorted; empty if unreachable
   std::vector<PathPoint> path;    ///< one geodesic, from the point to its source (the least id in a tie); only if asked for by `path`
   bool undecided = false;         ///< a decision could not be proved: the answer is the best known
+  robust::Stage stage = robust::Stage::identity;  ///< the last one that was asked which waves are nearest, or how the distance rounds at a vertex
 };
 
 /// The geodesic distance field and Voronoi diagram of a mesh and its sources. Movable, not copyable.
