@@ -89,8 +89,9 @@ MaybeSign compare_lengths_at(const Rung& rung, const Path& a, const Path& b) {
   if (rung.stage == Stage::identity)
     return first.legs.empty() && second.legs.empty() ? MaybeSign(static_cast<Sign>(sgn(first.given))) : std::nullopt;
   if (rung.stage == Stage::algebra) return compare_legs(first.given, exact_legs(first), exact_legs(second), are_equal);
+  const int exponent = largest_exponent(first, second);
   return numeric_stage<Sign>(rung, is_in_range(first) && is_in_range(second), [&, &x = first, &y = second]<class T>(int bits) -> MaybeSign {
-    return maybe_sign(length_in<T>(x, bits) - length_in<T>(y, bits));
+    return maybe_sign(length_in<T>(x, bits, exponent) - length_in<T>(y, bits, exponent));
   });
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "gvd/predicates/side_tie.hpp"
 #include "support/meshes.hpp"
@@ -57,6 +58,30 @@ TEST(BisectorVertex, TiesTheThreeAndHasThemCounterClockwise) {
   }
   EXPECT_GT(found, 500);
   EXPECT_GT(both, 20);
+}
+
+// Its image is near the vertex, but it starts after the time of the vertex by more than that: on the other sheet of its cone, which the lifted form does not tell.
+TEST(BisectorVertex, AWaveThatStartsTooLateDoesNotConflict) {
+  test::Random random(3);
+  int late = 0;
+  std::map<robust::Sign, int> said;
+  for (int round = 0; round < 3000; ++round) {
+    const Wave a = random_wave(random), b = random_wave(random), c = random_wave(random);
+    Wave rival = random_wave(random);
+    rival.weight *= 3;
+    const auto vertex = bisector_vertex(relative(b, a), relative(b, c));
+    if (vertex.existence != Existence::proved) continue;
+    const double x = b.x + vertex.p.x.mid(), y = b.y + vertex.p.y.mid(), value = b.weight + vertex.rho.mid();
+    const auto sign = conflict(relative(b, rival), vertex);
+    const double lead = value - distance(rival, x, y);
+    if (!sign || std::fabs(lead) < 1e-6 * (1 + value)) continue;
+    EXPECT_EQ(*sign, lead > 0 ? robust::Sign::positive : robust::Sign::negative) << round;
+    ++said[*sign];
+    late += rival.weight - value > std::hypot(rival.x - x, rival.y - y);
+  }
+  EXPECT_GT(late, 20);
+  EXPECT_GT(said[robust::Sign::positive], 100);
+  EXPECT_GT(said[robust::Sign::negative], 100);
 }
 
 TEST(SideTie, OvertakingIsWhereTheDifferenceFalls) {

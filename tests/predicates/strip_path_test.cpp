@@ -106,6 +106,17 @@ TEST(CompareLengths, DifferencesOfAnySizeAreFound) {
   EXPECT_EQ(compare_lengths({1, {diagonal, half}}, {1, {half, diagonal}}).stage, Stage::identity);
 }
 
+// Lengths about the smallest doubles, far apart as numbers go, but by less than the radius of a ball could say in their own units.
+TEST(CompareLengths, MpfrTellsTinyLengthsApart) {
+  const double unit = 0x1p-950;
+  const FaceCorners face{{{0, 0, 0}, {unit, 0, 0}, {0, unit, 0}}};
+  const auto along = [&](const mpq_class& t) { return Path{0, {Leg(FaceStrip(face, FacePoint::corner(0)), FacePoint::on_side(0, t))}}; };
+  const Path longer = along(mpq_class(2, 3)), shorter = along(mpq_class(2, 3) - robust::power_of_two(-300));
+  EXPECT_EQ(compare_lengths_at({Stage::mpfr, 512}, longer, shorter), Sign::positive);
+  EXPECT_EQ(compare_lengths_at({Stage::mpfr, 512}, shorter, longer), Sign::negative);
+  EXPECT_EQ(compare_lengths_at({Stage::mpfr, 256}, longer, shorter), std::nullopt);
+}
+
 TEST(Length, EnclosesAndRoundsTheTruth) {
   Random random(4);
   std::map<Stage, int> decided;
