@@ -1,6 +1,8 @@
 // Distances that differ from one another, or from a midpoint, by less than double-double sees, over more square classes than algebra multiplies out: MPFR decides.
 #include <gtest/gtest.h>
 
+#include "support/bump.hpp"
+#include "support/mirrored_terrain.hpp"
 #include "support/truth.hpp"
 
 namespace gvd::kernel {
@@ -9,30 +11,8 @@ namespace {
 using predicates::Predicate;
 using robust::Stage;
 
-constexpr std::uint32_t kWidth = 12, kHeight = 4;
-
-/// Rough heights, the same on both sides of the middle, diagonals too.
-test::MeshArrays mirrored_terrain() {
-  test::Random random(31);
-  std::vector<double> height((kWidth + 1) * (kHeight + 1));
-  for (std::uint32_t y = 0; y <= kHeight; ++y) {
-    for (std::uint32_t x = 0; x <= kWidth / 2; ++x)
-      height[y * (kWidth + 1) + x] = height[y * (kWidth + 1) + kWidth - x] = 0.05 * random.uniform();
-  }
-  test::MeshArrays mesh;
-  for (std::uint32_t y = 0; y <= kHeight; ++y)
-    for (std::uint32_t x = 0; x <= kWidth; ++x) mesh.points.push_back({double(x), double(y), height[y * (kWidth + 1) + x]});
-  for (std::uint32_t y = 0; y < kHeight; ++y) {
-    for (std::uint32_t x = 0; x < kWidth; ++x) {
-      const std::uint32_t a = y * (kWidth + 1) + x, b = a + 1, d = a + kWidth + 1, c = d + 1;
-      if (x < kWidth / 2)
-        mesh.faces.insert(mesh.faces.end(), {{a, b, c}, {a, c, d}});
-      else
-        mesh.faces.insert(mesh.faces.end(), {{a, b, d}, {b, c, d}});
-    }
-  }
-  return mesh;
-}
+using test::kWidth;
+using test::mirrored_terrain;
 
 /// Which source is nearest at each vertex of the mirror line, and how many decisions MPFR made: one source in the first square, the other its mirror image, but
 /// `step` nearer to the mirror line.
@@ -41,28 +21,7 @@ struct Answer {
   std::uint64_t by_mpfr;
 };
 Answer ask(const Mesh& mesh, const mpq_class& step) {
-  const Source left{point_in_face(mesh, 0, {mpq_class(1, 2), mpq_class(1, 4), mpq_class(1, 4)}), 0};
-  // Face 0 has the corners (0, 0), (1, 0), (1, 1); its image is found by their images.
-  const Source right = [&] {
-    for (FaceId f = 0; f < mesh.face_count(); ++f) {
-      std::array<mpq_class, 3> weight{0, 0, 0};
-      bool is_image = true;
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const VertexId v = mesh.origin(3 * f + k);
-        if (v == kWidth)
-          weight[k] = mpq_class(1, 2) - step;
-        else if (v == kWidth - 1)
-          weight[k] = mpq_class(1, 4) + step;
-        else if (v == 2 * kWidth)
-          weight[k] = mpq_class(1, 4);
-        else
-          is_image = false;
-      }
-      if (is_image) return Source{point_in_face(mesh, f, weight), 0};
-    }
-    throw std::logic_error("no mirror image");
-  }();
-  const auto solution = solve(mesh, {left, right}, test::distances_only());
+  const auto solution = solve(mesh, test::mirrored_sources(mesh, step), test::distances_only());
   Answer answer{{}, solution.decisions()(static_cast<std::size_t>(Predicate::vertex_distance), Stage::mpfr)};
   for (VertexId v = kWidth / 2; v < mesh.vertex_count(); v += kWidth + 1) {
     const auto told = solution.nearest(v);
@@ -122,6 +81,20 @@ TEST(NearTies, MpfrRoundsNearMidpoints) {
     EXPECT_EQ(distance_from(mesh, high + step, by_mpfr), second) << bits;
   }
   EXPECT_GT(by_mpfr, 40u);
+}
+
+TEST(NearTies, MpfrTellsWhetherACornerIsHidden) {
+  const test::Bump bump;
+  const Mesh mesh(bump.arrays);
+  for (const unsigned bits : {20u, 60u, 150u, 400u}) {
+    for (const bool hidden : {true, false}) {
+      const auto solution = solve(mesh, {{hidden ? bump.below(mesh, bits) : bump.above(mesh, bits), 0}}, test::distances_only());
+      ASSERT_TRUE(test::is_certified(solution));
+      const auto path = solution.path(point_at_vertex(mesh, bump.kLast)).path;
+      EXPECT_EQ(std::any_of(path.begin(), path.end(), [&](const PathPoint& p) { return p.vertex == bump.kBump; }), hidden) << bits;
+      EXPECT_EQ(solution.decisions()(static_cast<std::size_t>(Predicate::window_orientation), Stage::mpfr) > 0, bits > 100) << bits;
+    }
+  }
 }
 
 }  // namespace

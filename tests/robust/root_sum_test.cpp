@@ -15,6 +15,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 RootSum root(const mpq_class& r) { return RootSum(1, r); }
 
+// All 64 symbols agree, and yet the classes differ.
+TEST(RootSum, EqualSymbolsAreNoProof) {
+  mpz_class product = 8;
+  for (const std::uint64_t p : signature_primes()) product *= mpz_class(p);
+  const mpz_class n = product + 1;
+  ASSERT_EQ(square_class_signature(mpq_class(2 * n)), square_class_signature(2));
+  ASSERT_FALSE(same_square_class(mpq_class(2 * n), 2));
+  const RootSum sum = root(mpq_class(2 * n)) - root(2) * mpq_class(sqrt(n));
+  EXPECT_EQ(sum.terms().size(), 2u);
+  EXPECT_EQ(sum.sign(), Sign::positive);
+}
+
 TEST(RootSum, KnownZeros) {
   EXPECT_EQ(RootSum().sign(), Sign::zero);
   EXPECT_EQ(((root(2) + root(3)) - (root(2) + root(3))).sign(), Sign::zero);

@@ -1,4 +1,5 @@
 #include "gvd/robust/rounding.hpp"
+#include "gvd/robust/exact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,15 @@ TEST(Rounding, SubnormalsAndOverflow) {
   EXPECT_EQ(rounding_midpoint_above(0.0), power_of_two(-1075));
   EXPECT_EQ(rounding_midpoint_above(-0x1p-1074), -power_of_two(-1075));
   EXPECT_EQ(rounding_midpoint_above(1.0), 1 + power_of_two(-53));
+}
+
+// A midpoint that no enclosure shows to be one: the roots cancel.
+TEST(Rounding, TiesOfNestedRootsGoToTheEvenDouble) {
+  const Exact two = sqrt(Exact(2.0)), one = sqrt(Exact(3.0) + two.scaled(1)) - two;
+  const Exact half_ulp(0x1p-53);
+  EXPECT_EQ(rounded(one + half_ulp), 1.0);
+  EXPECT_EQ(rounded(one + half_ulp * Exact(3.0)), 1 + 0x1p-51);
+  EXPECT_EQ(rounded(-one - half_ulp), -1.0);
 }
 
 }  // namespace

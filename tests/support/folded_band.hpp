@@ -59,11 +59,14 @@ class BandStrip {
   struct Result {
     LaidOut strip;
     std::vector<std::size_t> anchor;  ///< corners
+    std::array<std::size_t, 2> end;   ///< the lower and the upper corner of the last column
   };
 
-  /// The source lies on column 0 at y = 0: in a corner, or inside an edge along the fold. On its column an anchor comes last.
-  static Result build(const FoldedBand& band, const Placement& place, const std::vector<Anchor>& anchors, bool source_on_edge, Random& random) {
-    BandStrip b(band, place, anchors, random);
+  /// The source lies on column 0 at y = 0: in a corner, or inside an edge along the fold. On its column an anchor comes last. The other corners are about as
+  /// far above as below `middle` of their column, or 0.
+  static Result build(const FoldedBand& band, const Placement& place, const std::vector<Anchor>& anchors, bool source_on_edge, Random& random,
+                      const std::vector<int>& middle = {}) {
+    BandStrip b(band, place, anchors, random, middle);
     b.start(source_on_edge);
     for (std::size_t column = b.reached_; column < band.panels.size();) {
       ++column;
@@ -73,15 +76,16 @@ class BandStrip {
       b.extend(upper_first, column);
       b.extend(!upper_first, column);
     }
-    return {b.strip_, b.found_};
+    return {b.strip_, b.found_, {b.lower_, b.upper_}};
   }
 
  private:
-  BandStrip(const FoldedBand& band, const Placement& place, const std::vector<Anchor>& anchors, Random& random)
+  BandStrip(const FoldedBand& band, const Placement& place, const std::vector<Anchor>& anchors, Random& random, const std::vector<int>& middle)
       : place_(place), anchors_(anchors), found_(anchors.size()) {
     int x = 0, z = 0;
     const auto column = [&](std::size_t c) {
-      Column next{x, z, -static_cast<int>(1 + random.below(6)), static_cast<int>(1 + random.below(6))};
+      const int at = middle.empty() ? 0 : middle[c];
+      Column next{x, z, at - static_cast<int>(1 + random.below(6)), at + static_cast<int>(1 + random.below(6))};
       const int apart = next.upper - next.lower;
       for (const Anchor& a : anchors_)
         if (a.column == c) (a.upper ? next.upper : next.lower) = a.y;

@@ -1,6 +1,5 @@
 // Worst cases of the side of a ray: vertices in line with the source by construction, and their nearest neighbours.
-#include "support/band_families.hpp"
-#include "support/real.hpp"
+#include "support/in_line.hpp"
 #include "support/worst_case_tally.hpp"
 
 namespace gvd::predicates {
@@ -10,33 +9,6 @@ using robust::MaybeSign;
 using robust::Sign;
 using robust::Stage;
 using namespace gvd::test;
-
-struct InLine {
-  LaidOut strip;
-  std::size_t through, v;
-};
-
-InLine in_line(const BandFamily& family, Random& random) {
-  const FoldedBand band = family.make(random);
-  const int slope = static_cast<int>(random.below(5)) - 2;
-  std::size_t first = random.below(static_cast<std::uint32_t>(band.marks.size() - 1)), second = band.marks.size() - 1;
-  if (first > 0 && random.below(2) == 0) std::swap(first, second);
-  std::vector<BandStrip::Anchor> anchors;
-  for (const std::size_t m : {first, second}) anchors.push_back({band.marks[m].column, slope * band.marks[m].multiple, random.below(2) == 0});
-  const auto built = BandStrip::build(band, Placement::random(random), anchors, random.below(2) == 0, random);
-  return {built.strip, built.anchor[0], built.anchor[1]};
-}
-
-/// A coordinate of one of the three points by an ulp, or the source by less.
-InLine neighbour(InLine c, Random& random) {
-  if (random.below(2) == 0) {
-    c.strip.source.weight[1 + random.below(2)] += small_step(random);
-  } else {
-    const std::array<std::size_t, 3> points{0, c.through, c.v};
-    nudge(c.strip.corner[points[random.below(3)]], random);
-  }
-  return c;
-}
 
 Sign truth(const InLine& c) {
   const auto flat = c.strip.flat<Real>();
