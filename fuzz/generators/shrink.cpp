@@ -104,6 +104,8 @@ class Shrinker {
       };
       const Place place = case_.sources[i];
       if (place.weight != 0) change([](Place& p) { p.weight = 0; });
+      const auto first = case_.sources[0].face;  // all in one face, if they may be
+      if (place.face != first) change([&](Place& p) { p.face = first; });
       for (std::size_t k = 0; k < 3; ++k)
         for (const double w : {0.0, 1.0, 2.0})
           if (place.corner_weights[k] != 0 && place.corner_weights[k] > w) change([&](Place& p) { p.corner_weights[k] = w; });
