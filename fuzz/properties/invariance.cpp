@@ -88,12 +88,12 @@ std::array<int, 2> exponents(const Case& c) {
   return range;
 }
 
-/// Times a power of two at which no number gets subnormal or too large. Seldom so far that squares do: then most is decided in exact numbers.
+/// Times a power of two at which no number gets subnormal or too large, though squares may.
 Altered rescaled(Draw& draw, const Case& c) {
   const auto [low, high] = exponents(c);
-  const int farthest = draw.one_in(10) ? 900 : 400;
+  constexpr int kFarthest = 900;
   Altered out(c);
-  out.scale = draw.between(std::min(0, -farthest - low), std::max(0, farthest - high));
+  out.scale = draw.between(std::min(0, -kFarthest - low), std::max(0, kFarthest - high));
   for (auto& p : out.problem.mesh.points)
     for (double& x : p) x = std::ldexp(x, out.scale);
   for (Place& s : out.problem.sources) s.weight = std::ldexp(s.weight, out.scale);
