@@ -71,6 +71,15 @@ Outcome labels_inside_facets(Trial& t) {
 }
 
 /// The label sets that the diagram gives the faces are those that queries give inside them.
+/// A source that others reach with exactly its own weight has no region, but ties with them on the rays behind it.
+bool ties_on_a_ray(Trial& t, const std::vector<kernel::SourceId>& nearest, const std::vector<kernel::SourceId>& labels) {
+  return std::includes(nearest.begin(), nearest.end(), labels.begin(), labels.end()) &&
+         std::all_of(nearest.begin(), nearest.end(), [&](kernel::SourceId s) {
+           const auto at_source = t.solution().query(t.sources()[s].at).nearest;
+           return std::includes(at_source.begin(), at_source.end(), labels.begin(), labels.end()) || std::binary_search(labels.begin(), labels.end(), s);
+         });
+}
+
 Outcome faces_have_their_label(Trial& t) {
   const auto& diagram = t.solution().diagram();
   Draw draw = t.draw("faces_have_their_label");
@@ -81,7 +90,8 @@ Outcome faces_have_their_label(Trial& t) {
     const auto at = point_in(draw, f);
     if (at.bary[0] == 0 || at.bary[1] == 0 || at.bary[2] == 0) continue;  // its sides may have more labels
     const auto answer = t.solution().query(at);
-    if (!answer.undecided && answer.nearest != diagram.label_sets[diagram.face_label[f]])
+    const auto& labels = diagram.label_sets[diagram.face_label[f]];
+    if (!answer.undecided && answer.nearest != labels && !ties_on_a_ray(t, answer.nearest, labels))
       return violated(fmt::format("{}: nearest {}, the face is labelled {}", text_of(at), text_of(answer.nearest),
                                   text_of(diagram.label_sets[diagram.face_label[f]])));
   }

@@ -155,8 +155,10 @@ void Propagation::relax(VertexId v, const Candidate& candidate) {
   auto& list = field_.candidates;
   if (candidate.window == kNone) {  // the same path, its root nearer than it was
     for (std::uint32_t* link = &field_.first_candidate[v]; *link != kNone; link = &list[*link].next) {
-      if (list[*link].window != kNone || list[*link].via != candidate.via) continue;
-      *link = list[*link].next;
+      const Candidate& old = list[*link];
+      if (old.window != kNone || old.via != candidate.via) continue;
+      if (old.distance == candidate.distance && old.error == candidate.error) return;  // nothing new; close vertices would tell one another for ever
+      *link = old.next;
       break;
     }
   }
