@@ -289,14 +289,17 @@ Ball<DoubleDouble> Resolution::length(const Candidate& c, VertexId v) {
   return c.via == v ? last : distance_[c.via] + last;
 }
 
+/// Along an edge, or through a window: `image_of` gives its image, `frame_of` the frames.
+template <class FrameOf, class ImageOf>
+auto Resolution::straight_leg(const Candidate& c, VertexId v, double unit, const FrameOf& frame_of, const ImageOf& image_of) const {
+  if (c.window == kNone) return predicates::enclosed_length(frame_of(edge_between(c.via, v)), unit);
+  return predicates::last_leg(image_of(c.window), frame_of(field_.windows[c.window].halfedge()), unit);
+}
+
 Ball<DoubleDouble> Resolution::leg(const Candidate& c, VertexId v) {
-  const double unit = predicates::unit<DoubleDouble>(0);
   if (c.via == v) return Ball<DoubleDouble>(std::ldexp(sources_[source_of_vertex_[v]].weight, -frames_.scale()));
-  if (c.window == kNone) {
-    const DoubleDouble edge = frames_.in_double_double(edge_between(c.via, v)).length;
-    return Ball<DoubleDouble>(edge, predicates::kUnfoldingStep * unit * edge.hi);
-  }
-  return predicates::last_leg((*images_)(c.window), frames_.in_double_double(field_.windows[c.window].halfedge()), unit);
+  const auto frame_of = [&](HalfedgeId h) -> const auto& { return frames_.in_double_double(h); };
+  return straight_leg(c, v, predicates::unit<DoubleDouble>(0), frame_of, [&](WindowId window) { return (*images_)(window); });
 }
 
 Ball<Mpfr> Resolution::length(const Candidate& c, VertexId v, int bits) const {
@@ -305,16 +308,10 @@ Ball<Mpfr> Resolution::length(const Candidate& c, VertexId v, int bits) const {
 }
 
 Ball<Mpfr> Resolution::leg(const Candidate& c, VertexId v, int bits) const {
-  const double unit = predicates::unit<Mpfr>(bits);
   if (c.via == v) return Ball<Mpfr>(Mpfr(std::ldexp(sources_[source_of_vertex_[v]].weight, -frames_.scale()), bits), 0);
-  if (c.window == kNone) {
-    const HalfedgeId h = edge_between(c.via, v);
-    const Mpfr edge = frames_.in_mpfr(Mesh::face(h), bits)[h % 3].length;
-    return Ball<Mpfr>(edge, predicates::kUnfoldingStep * unit * edge.to_double());
-  }
-  const auto at = unfold_mpfr(frames_, strip_of(frames_.mesh(), field_, c.window), bits);
-  const HalfedgeId h = field_.windows[c.window].halfedge();
-  return predicates::last_leg(at.image, frames_.in_mpfr(Mesh::face(h), bits)[h % 3], unit);
+  const auto frame_of = [&](HalfedgeId h) { return frames_.in_mpfr(Mesh::face(h), bits)[h % 3]; };
+  const auto image_of = [&](WindowId window) { return unfold_mpfr(frames_, strip_of(frames_.mesh(), field_, window), bits).image; };
+  return straight_leg(c, v, predicates::unit<Mpfr>(bits), frame_of, image_of);
 }
 
 Ball<Mpfr> Resolution::distance(VertexId v, int bits) const { return length(field_.candidates[field_.first_candidate[v]], v, bits); }
@@ -410,12 +407,13 @@ namespace {
 bool may_vanish(const Ball<DoubleDouble>& x) { return maybe_sign(x).value_or(robust::Sign::zero) == robust::Sign::zero; }
 }  // namespace
 
+/// Not from the images that `resolve` keeps. Pre: v is not the source itself.
 Ball<DoubleDouble> Resolution::enclosed_leg(const Candidate& c, VertexId v) const {
-  constexpr double unit = robust::kDoubleDoubleQuotientError;
-  if (c.window == kNone) return predicates::enclosed_length(frames_.in_double_double(edge_between(c.via, v)), unit);
-  const auto frame = [&](HalfedgeId h) -> const auto& { return frames_.in_double_double(h); };
-  const auto at = predicates::unfold<DoubleDouble, false>(strip_of(frames_.mesh(), field_, c.window), frame);
-  return predicates::last_leg(at.image, frame(field_.windows[c.window].halfedge()), unit);
+  const auto frame_of = [&](HalfedgeId h) -> const auto& { return frames_.in_double_double(h); };
+  const auto image_of = [&](WindowId window) {
+    return predicates::unfold<DoubleDouble, false>(strip_of(frames_.mesh(), field_, window), frame_of).image;
+  };
+  return straight_leg(c, v, predicates::unit<DoubleDouble>(0), frame_of, image_of);
 }
 
 bool Resolution::is_as_far(WindowId window, VertexId v) const {
@@ -429,7 +427,7 @@ bool Resolution::is_as_far(WindowId window, VertexId v) const {
 
 /// Whether the square of an image in these sums of roots takes longer than the span test.
 bool Resolution::has_long_image(WindowId window) const {
-  constexpr std::size_t kFewTerms = 4;
+  constexpr std::size_t kFewTerms = 4;  // chooses which proof is tried first, and no more
   const auto at = window == kNone ? nullptr : exact_unfolding(window);
   return at && std::max(at->image.x.terms().size(), at->image.y.terms().size()) > kFewTerms;
 }

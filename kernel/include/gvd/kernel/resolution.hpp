@@ -104,6 +104,8 @@ class Resolution {
   std::optional<std::vector<std::uint32_t>> nearest_exactly(const std::vector<std::uint32_t>& list, VertexId v) const;
   robust::Ball<robust::DoubleDouble> length(const Candidate& c, VertexId v);
   robust::Ball<robust::Mpfr> length(const Candidate& c, VertexId v, int bits) const;
+  template <class FrameOf, class ImageOf>
+  auto straight_leg(const Candidate& c, VertexId v, double unit, const FrameOf& frame_of, const ImageOf& image_of) const;
   /// Of the last, straight part of the path; from the source itself, its weight.
   robust::Ball<robust::DoubleDouble> leg(const Candidate& c, VertexId v);
   robust::Ball<robust::Mpfr> leg(const Candidate& c, VertexId v, int bits) const;
