@@ -12,6 +12,7 @@
 #include <string>
 
 #include <tbb/parallel_for.h>
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include "gvd/kernel/error.hpp"
@@ -133,14 +134,21 @@ class Solver {
     return true;
   }
 
+  /// No more than run at once on this machine.
+  int threads_to_use() const {
+    const auto most = static_cast<unsigned>(std::max(1, tbb::info::default_concurrency()));
+    return static_cast<int>(std::clamp(options_.threads, 1u, most));
+  }
+
   /// Runs work(i, decisions) for all i < n in blocks, so that neither results nor lists depend on the number of threads.
   template <class Work>
   bool in_parallel(std::size_t n, const Work& work) {
     constexpr std::size_t kBlock = 16;
     const std::size_t blocks = (n + kBlock - 1) / kBlock;
     std::vector<predicates::Decisions> decisions(blocks);
-    const std::size_t stride = std::size_t{8} * std::max(1u, options_.threads);
-    tbb::task_arena arena(static_cast<int>(std::max(1u, options_.threads)));
+    const int threads = threads_to_use();
+    const std::size_t stride = std::size_t{8} * static_cast<std::size_t>(threads);
+    tbb::task_arena arena(threads);
     for (std::size_t first = 0; first < blocks; first += stride) {
       const std::size_t last = std::min(blocks, first + stride);
       arena.execute([&] {
@@ -243,7 +251,7 @@ class Solver {
     const UnfoldedWindows<robust::DoubleDouble> unfolded = unfold_beside_arcs();
     for (const auto& waves : waves_)
       if (waves) waves->use(&unfolded);
-    tbb::task_arena arena(static_cast<int>(std::max(1u, options_.threads)));
+    tbb::task_arena arena(threads_to_use());
     arena.execute([&] {
       s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, origin},
                            s_.decisions);

@@ -23,7 +23,8 @@ struct Progress {
 };
 
 struct SolveOptions {
-  unsigned threads = 1;                 ///< facet tessellation and rounding run in parallel; results do not depend on it
+  /// Facet tessellation, extraction and rounding run in parallel, on no more threads than the machine runs at once; results do not depend on it.
+  unsigned threads = 1;
   std::uint64_t max_memory_bytes = 0;   ///< limit on the resident memory of the process; 0: none
   double time_limit_seconds = 0;        ///< limit on the wall time of `solve`; 0: none
   /// Called from the thread that called `solve`, a few times a second. Return false to cancel. Must not throw.
