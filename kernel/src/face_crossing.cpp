@@ -275,7 +275,7 @@ template <bool kLeft>
 void Propagation::make_child(const Wave& wave, bool at_apex, Exit& exit) {
   const Frame& side = exit.side;
   // A shortest path crosses no edge twice: a window that has come once round a vertex, or once more over its mark, is done.
-  const std::uint32_t turns = (kLeft ? wave.begin_turns : wave.end_turns) + 1u, steps = wave.steps + 1;
+  const std::uint32_t turns = (kLeft ? wave.begin_turns : wave.end_turns) + 1, steps = wave.steps + 1;
   if (turns >= exit.turn_limit || exit.edge == wave.mark) return;
   const Image image = cross<kLeft>(wave.image, side);
   const double image_error = wave.image_error + exit.step_error * (norm1(image.x, image.y) + 1);
@@ -313,8 +313,8 @@ void Propagation::make_child(const Wave& wave, bool at_apex, Exit& exit) {
   child.bounded = static_cast<std::uint8_t>(bounded);
   child.cone_x = cone_x;
   child.cone_y = cone_y;
-  child.begin_turns = kLeft ? static_cast<std::uint16_t>(turns) : std::uint16_t{0};
-  child.end_turns = kLeft ? std::uint16_t{0} : static_cast<std::uint16_t>(turns);
+  child.begin_turns = kLeft ? turns : 0;
+  child.end_turns = kLeft ? 0 : turns;
   child.steps = steps;
   child.mark = (steps & (steps - 1)) == 0 ? exit.edge : wave.mark;
   child.root = wave.root;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gvd/kernel/error.hpp"
+#include "most_faces.hpp"
 
 namespace gvd::kernel {
 namespace {
@@ -19,8 +20,8 @@ void check_sizes(const MeshArrays& arrays) {
   if (arrays.points.size() >= kNone) {
     throw InputError(fmt::format("the mesh has {} vertices; at most {} are supported", arrays.points.size(), kNone - 1));
   }
-  if (arrays.faces.size() > (kNone - 1) / 3) {
-    throw InputError(fmt::format("the mesh has {} faces; at most {} are supported", arrays.faces.size(), (kNone - 1) / 3));
+  if (arrays.faces.size() > kMostFaces) {
+    throw InputError(fmt::format("the mesh has {} faces; at most {} are supported", arrays.faces.size(), kMostFaces));
   }
 }
 

@@ -51,7 +51,7 @@ Propagation::Propagation(const Frames& frames, const std::vector<VertexKind>& ki
   upper_.assign(n, infinity);
   settled_.assign(n, 0);
   degree_.assign(n, 0);
-  for (HalfedgeId h = 0; h < m; ++h) degree_[mesh_.origin(h)] = static_cast<std::uint16_t>(std::min(degree_[mesh_.origin(h)] + 1, 0xffff));
+  for (HalfedgeId h = 0; h < m; ++h) ++degree_[mesh_.origin(h)];
   emitted_weight_.assign(n, infinity);
   emitted_error_.assign(n, 0);
   emitted_low_.assign(n, infinity);

@@ -29,7 +29,7 @@ class Propagation {
   /// A window while it waits to cross the face: its numbers in the frame of its half-edge.
   struct alignas(128) Wave : WindowInterval {
     robust::DoublePair cone_x, cone_y;     // the vertices that bound the cone
-    std::uint16_t begin_turns, end_turns;  // faces crossed in a row about the origin and the target of the half-edge
+    std::uint32_t begin_turns, end_turns;  // faces crossed in a row about the origin and the target of the half-edge
     std::uint32_t steps;                   // faces crossed
     HalfedgeId mark;                       // an edge that was crossed: the last one at a number of faces that is a power of two
     WindowId window;
@@ -120,7 +120,7 @@ class Propagation {
   std::uint32_t ahead_ = kNone;               // a wave of the list that is crossed next, fetched
   std::vector<double> upper_;                 // per vertex: certain upper bound of D
   std::vector<std::uint8_t> settled_;
-  std::vector<std::uint16_t> degree_;         // faces at a vertex
+  std::vector<std::uint32_t> degree_;         // faces at a vertex
   std::vector<double> emitted_weight_, emitted_error_;  // per settled vertex: what its windows carry
   std::vector<double> emitted_low_;                     // and how near it can be before they are sent again
   std::vector<WindowId> emitted_;             // per outgoing half-edge: the first window sent over the opposite side

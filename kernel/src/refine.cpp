@@ -11,6 +11,7 @@
 #include "gvd/kernel/source.hpp"
 #include "gvd/kernel/surface_point.hpp"
 #include "gvd/robust/root_sum.hpp"
+#include "most_faces.hpp"
 
 namespace gvd::kernel {
 namespace {
@@ -40,7 +41,7 @@ struct SplitFace {
 class MeshRefiner {
  public:
   MeshRefiner(const Mesh& given, std::size_t sources) : given_(given), mesh_(given) {
-    if (given.face_count() + 2 * sources > (kNone - 1) / 3) {
+    if (given.face_count() + 2 * sources > kMostFaces) {
       throw InputError(fmt::format("{} sources on a mesh of {} faces are too many", sources, given.face_count()));
     }
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -385,6 +386,24 @@ TEST(RoundingMidpoint, PythagoreanHypotenuseOf54Bits) {
   expect_midpoint(m * m - n * n, 2 * m * n, h, mpz_class(h - 1).get_d());
   const mpz_class k = 28'000'000, l = 2 * k + 1, g = 3 * (l * l + k * k);
   expect_midpoint(3 * (l * l - k * k), 6 * l * k, g, mpz_class(g + 1).get_d());
+}
+
+/// A fan of so many faces round a corner of 175 degrees: the straight line between its ends crosses them all.
+TEST(ManyFaces, AStraightLineCrossesMoreThan65535OfOneVertex) {
+  constexpr std::uint32_t kFaces = 66'000;
+  test::MeshArrays fan{{{0, 0, 0}}, {}};
+  for (std::uint32_t i = 0; i <= kFaces; ++i) {
+    const double angle = 175.0 / 180 * 3.14159265358979 * i / kFaces;
+    fan.points.push_back({std::cos(angle), std::sin(angle), 0});
+    if (i > 0) fan.faces.push_back({0, i, i + 1});
+  }
+  const Mesh mesh(fan);
+  const VertexId last = kFaces + 1;
+  const auto solution = solve(mesh, {at_vertex(mesh, 1)}, test::distances_only());
+  ASSERT_TRUE(test::is_certified(solution));
+  const ExactPoint p = mesh.exact_point(1), q = mesh.exact_point(last);
+  const mpq_class x = q[0] - p[0], y = q[1] - p[1];
+  EXPECT_EQ(solution.distance(last), RootSum(1, mpq_class(x * x + y * y)).rounded());
 }
 
 }  // namespace
