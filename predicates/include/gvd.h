@@ -1,8 +1,9 @@
 /* Certified predicates over strips of triangles, for C and everything that can call C.
  *
  * The same as gvd/predicates/face_strip.hpp, strip_path.hpp and strip_window.hpp, where the laws and costs are described. Coordinates are
- * doubles, taken as exact real numbers. No function throws, exits or keeps global state; distinct handles may be used by distinct threads.
- * A handle is given back by its own _free (which takes NULL). Where a function does not return GVD_OK, nothing has been changed or written.
+ * doubles, taken as exact real numbers. No function throws, exits or keeps global state, but for one thing: GMP and MPFR end the program if they
+ * find no memory. Distinct handles may be used by distinct threads. A handle is given back by its own _free (which takes NULL). Where a function
+ * does not return GVD_OK, nothing has been changed or written.
  */
 #ifndef GVD_H
 #define GVD_H

@@ -22,6 +22,12 @@ FaceCorners corners_of(std::span<const SpacePoint> vertices, const FaceIndices& 
   return corners;
 }
 
+/// What comes next is appended without an allocation, which might fail.
+template <class T>
+void make_room(std::vector<T>& list) {
+  if (list.size() == list.capacity()) list.reserve(2 * list.size() + 4);
+}
+
 /// Which corner of the face is p; 3 if none.
 std::size_t find_corner(const FaceCorners& face, const SpacePoint& p) {
   return static_cast<std::size_t>(std::find(face.begin(), face.end(), p) - face.begin());
@@ -76,10 +82,13 @@ void FaceStrip::cross(const FaceCorners& face) {
   while (apex < 3 && (face[apex] == origin || face[apex] == target)) ++apex;
   if (apex == 3) throw std::invalid_argument("a face has a repeated corner");
   auto entered = std::make_shared<FaceShape>(FaceCorners{origin, target, face[apex]});
+  make_room(faces_);
+  make_room(vertices_);
+  make_room(strip_.steps);
   if (crossings() == 0) {
     const mpq_class& across = source_[(side + 2) % 3];
     if (sgn(across) == 0) throw std::invalid_argument("the first edge crossed contains the source");
-    const auto root = [&] {
+    auto root = [&] {
       if (across == 1) return std::make_shared<FaceShape>(FaceCorners{target, origin, before[(side + 2) % 3]});
       ExactPoint source{0, 0, 0};
       for (std::size_t k = 0; k < 3; ++k) {
@@ -88,7 +97,7 @@ void FaceStrip::cross(const FaceCorners& face) {
       }
       return std::make_shared<FaceShape>(target, origin, source);
     }();
-    faces_ = {root};
+    faces_[0] = std::move(root);
     exit_ = static_cast<std::uint8_t>(side);
   } else {
     if (side == 0) throw std::invalid_argument("a strip goes back over the edge by which it came in");
