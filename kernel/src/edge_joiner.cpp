@@ -157,9 +157,36 @@ bool EdgeJoiner::are_identical(HalfedgeId h, const Skeleton& left, const Skeleto
   }
 }
 
+/// Whether either point lies on one boundary ray, which comes over the edge: that of a window and of its child, if the same vertex bounds both cones. (A
+/// child that is bounded by the apex of its parent's facet has another name there than the parent, which is never bounded by it.)
+bool EdgeJoiner::are_on_one_ray(const View& view, const Event& a, const Event& b) const {
+  if (view.left.waves == nullptr || view.right.waves == nullptr) return false;
+  const auto &of_left = view.left.tessellation->nodes[a.node], &of_right = view.right.tessellation->nodes[b.node];
+  if (of_left.ray == FacetTessellation::kNoSite || of_right.ray == FacetTessellation::kNoSite || of_left.ray_end != of_right.ray_end) return false;
+  const FacetSite &left = view.left.waves->sites[of_left.ray], &right = view.right.waves->sites[of_right.ray];
+  const VertexId bound = left.cone[of_left.ray_end];
+  return bound != kNone && bound == right.cone[of_right.ray_end] && goes_over(in_, view.h, left, right);
+}
+
+/// Whether one wave takes over from another on either side, and what takes over is as far all along the edge, and what it takes over from: along a
+/// line one wave overtakes another one once. (Facets run along their edge in opposite directions.)
+bool EdgeJoiner::cross_alike(const View& view, const Event& a, const Event& b) const {
+  if (view.left.waves == nullptr || view.right.waves == nullptr) return false;
+  const auto &of_left = view.left.tessellation->nodes[a.node], &of_right = view.right.tessellation->nodes[b.node];
+  const auto is_overtaking = [](const FacetTessellation::Node& node) {
+    return node.kind == FacetTessellation::Node::Kind::side && node.ray == FacetTessellation::kNoSite && node.defining[0] != FacetTessellation::kNoSite;
+  };
+  if (!is_overtaking(of_left) || !is_overtaking(of_right)) return false;
+  const auto are_as_far = [&](std::uint32_t left_site, std::uint32_t right_site) {
+    if (same_wave(in_, view.h, view.left, left_site, view.right, right_site)) return true;
+    return in_.as_far_along && in_.as_far_along(view.h, view.left.waves->sites[left_site], view.right.waves->sites[right_site]);
+  };
+  return are_as_far(of_left.defining[0], of_right.defining[1]) && are_as_far(of_left.defining[1], of_right.defining[0]);
+}
+
 EdgeJoiner::Order EdgeJoiner::compare(const View& view, std::size_t left_event, std::size_t right_event) {
   const Event &a = view.of_left.events[left_event], &b = view.of_right.events[right_event];
-  if (identical(view, a, b)) {
+  if (identical(view, a, b) || are_on_one_ray(view, a, b)) {
     predicates::count(decisions_, Predicate::edge_tie, Stage::identity);
     return Order::equal;
   }
@@ -173,6 +200,10 @@ EdgeJoiner::Order EdgeJoiner::compare(const View& view, std::size_t left_event, 
   };
   auto answer = verdict(FacetWaves::F(), Stage::filter, 0);
   if (!answer) answer = verdict(FacetWaves::DD(), Stage::double_double, 0);
+  if (!answer && cross_alike(view, a, b)) {
+    predicates::count(decisions_, Predicate::edge_tie, Stage::algebra);
+    return Order::equal;
+  }
   for (const int bits : {128, 256, 512, 1024})
     if (!answer) answer = verdict(FacetWaves::M(), Stage::mpfr, bits);
   if (!answer && has_exact(view.left) && has_exact(view.right)) answer = verdict(robust::Exact(), Stage::algebra, 0);
@@ -231,14 +262,15 @@ bool EdgeJoiner::contradict(const View& view, std::span<const Piece> of_left, st
 std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& view, bool of_left, std::size_t from, std::size_t to,
                                                                  Station* before, Station* behind) {
   const SideView& side = of_left ? view.of_left : view.of_right;
+  const auto index_of = [](const std::vector<Event>& events, std::uint32_t node) {
+    return static_cast<std::size_t>(std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.node == node; }) - events.begin());
+  };
   const auto order_against = [&](std::size_t event, const Station* station) {
     const std::uint32_t own = of_left ? station->node_left : station->node_right;
     if (own == side.events[event].node) return Order::equal;
-    if (own != kNone) return station == before ? Order::greater : Order::less;
-    const auto& others = (of_left ? view.of_right : view.of_left).events;
-    const std::uint32_t node = of_left ? station->node_right : station->node_left;
-    const auto other = static_cast<std::size_t>(
-        std::find_if(others.begin(), others.end(), [&](const Event& e) { return e.node == node; }) - others.begin());
+    if (own != kNone) return event < index_of(side.events, own) ? Order::less : Order::greater;
+    const std::size_t other =
+        of_left ? index_of(view.of_right.events, station->node_right) : index_of(view.of_left.events, station->node_left);
     if (of_left) return compare(view, event, other);
     const Order order = compare(view, other, event);
     return order == Order::less ? Order::greater : order == Order::greater ? Order::less : order;
@@ -250,8 +282,8 @@ std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& vie
     if (low == Order::unknown || high == Order::unknown) return std::nullopt;
     for (Station* station : {low == Order::equal ? before : nullptr, high == Order::equal ? behind : nullptr})
       if (station != nullptr) (of_left ? station->node_left : station->node_right) = side.events[event].node;
-    if (of_left && low == Order::less) before->passed_left = side.events[event].node;
-    if (!of_left && high == Order::greater && behind->passed_right == kNone) behind->passed_right = side.events[event].node;
+    if (of_left && low == Order::less && before->node_left == kNone) before->passed_left = side.events[event].node;
+    if (!of_left && high == Order::greater && behind->node_right == kNone && behind->passed_right == kNone) behind->passed_right = side.events[event].node;
     if (low == Order::greater && high == Order::less) found.push_back(event);
   }
   return found;

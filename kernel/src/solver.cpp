@@ -16,6 +16,7 @@
 #include <tbb/task_arena.h>
 
 #include "gvd/kernel/error.hpp"
+#include "edge_images.hpp"
 #include "solution_impl.hpp"
 
 namespace gvd::kernel {
@@ -118,6 +119,11 @@ class Solver {
     for (const SourceVertex& v : s_.source_vertices) starts.push_back({v.vertex, std::ldexp(v.weight, -s_.frames->scale())});
     const auto go_on = [](void* self, std::uint64_t settled, std::uint64_t) {
       auto& solver = *static_cast<Solver*>(self);
+      constexpr std::size_t kMostWindows = kNone / 2;  // their numbers have 32 bits, and more come before the next poll
+      if (solver.s_.field.windows.size() > kMostWindows || solver.s_.field.candidates.size() > kMostWindows) {
+        solver.s_.status = Status::memory_limit;
+        return false;
+      }
       return solver.poll(static_cast<double>(settled), static_cast<double>(solver.s_.refined.vertex_count()));
     };
     return propagate(*s_.frames, starts, s_.kinds, s_.field, s_.decisions, go_on, this);
@@ -248,12 +254,15 @@ class Solver {
     for (SourceId i = 0; i < sources.size(); ++i)
       sources[i] = {s_.where.vertex[i], s_.where.weight[i], std::binary_search(s_.hidden.begin(), s_.hidden.end(), i)};
     const auto origin = [&](WindowId w) { return WindowOrigin{s_.field.windows[w].parent, s_.field.windows[w].halfedge()}; };
+    const auto as_far_along = [&](HalfedgeId h, const FacetSite& left, const FacetSite& right) {
+      return are_as_far_along(*s_.resolution, h, left, right);
+    };
     const UnfoldedWindows<robust::DoubleDouble> unfolded = unfold_beside_arcs();
     for (const auto& waves : waves_)
       if (waves) waves->use(&unfolded);
     tbb::task_arena arena(threads_to_use());
     arena.execute([&] {
-      s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, origin},
+      s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, origin, as_far_along},
                            s_.decisions);
     });
     for (const auto& waves : waves_)

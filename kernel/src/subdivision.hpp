@@ -130,6 +130,8 @@ class EdgeJoiner {
   enum class Order : std::uint8_t { less, equal, greater, unknown };
   Order compare(const View& view, std::size_t left_event, std::size_t right_event);
   bool identical(const View& view, const Event& a, const Event& b) const;
+  bool are_on_one_ray(const View& view, const Event& a, const Event& b) const;
+  bool cross_alike(const View& view, const Event& a, const Event& b) const;
   bool contradict(const View& view, std::span<const Piece> of_left, std::span<const Piece> of_right) const;
   bool merge(const View& view, std::span<const std::size_t> left, std::span<const std::size_t> right, std::vector<Station>& out);
   bool insert_inner_events(const View& view, Joint& joint);

@@ -46,6 +46,8 @@ struct DiagramInput {
   const std::vector<BoundaryFacet>& facets;    ///< sorted by face
   /// How each window of `FacetSite::window`, and each of their ancestors, came about.
   std::function<WindowOrigin(WindowId)> window;
+  /// Whether a wave of the facet of a half-edge and one of the facet of its twin are as far all along the edge, by algebra: true is a proof. May be empty.
+  std::function<bool(HalfedgeId, const FacetSite&, const FacetSite&)> as_far_along{};
 };
 
 /// Joins the tessellated facets to the diagram of the input mesh (docs/diagram.md).
