@@ -1,11 +1,22 @@
 #include "border_tracer.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace gvd::kernel {
 
+using predicates::BisectorPiece;
 using predicates::Predicate;
 using Piece = FacetTessellation::Piece;
+
+namespace {
+
+constexpr double kFar = 0x1p100;
+
+predicates::DoublePoint middle(const FacetTessellation::Node& node) { return {node.x.mid(), node.y.mid()}; }
+
+}  // namespace
 
 std::optional<FacetTessellation> BorderTracer::run() {
   const bool walked = outline_.walk();
@@ -63,29 +74,98 @@ bool BorderTracer::is_known(std::uint32_t i, std::uint32_t j, std::uint32_t k) c
   return false;
 }
 
-/// Adds the arc that begins there, if all the places where an arc of its waves may end are known to be one. False if not.
+/// Adds the arc that begins there, if the place where it ends is certain. False if not.
 bool BorderTracer::follow(std::size_t start) {
-  const auto [left, right, from, followed] = starts_[start];
   std::optional<std::size_t> end;
   for (std::size_t s = 0; s < starts_.size(); ++s) {
-    if (s == start || starts_[s].left != right || starts_[s].right != left) continue;
+    if (s == start || starts_[s].left != starts_[start].right || starts_[s].right != starts_[start].left) continue;
     if (end) return false;
     end = s;
   }
-  std::optional<Found> vertex;
-  for (std::uint32_t other = 0; other < contenders_.size(); ++other) {
-    if (other == left || other == right || is_known(left, right, other)) continue;
-    auto found = vertices_.find_in_doubles(left, right, other);
-    if (!found) return false;
-    if (!found->exists) continue;
-    if (end || vertex) return false;
-    vertex = std::move(found);
+  const Start arc = starts_[start];
+  thirds_.clear();
+  for (std::uint32_t other = 0; other < contenders_.size(); ++other)
+    if (other != arc.left && other != arc.right && !is_known(arc.left, arc.right, other)) thirds_.push_back({0, other});
+  if (!end) {
+    auto vertex = first_vertex(arc);
+    if (!vertex) return false;
+    end = add_vertex(std::move(*vertex), arc.left, arc.right);
   }
-  if (vertex) end = add_vertex(std::move(*vertex), left, right);
-  if (!end || starts_[*end].followed) return false;
+  if (starts_[*end].followed || !are_excluded(arc, result_.nodes[starts_[*end].node])) return false;
   starts_[start].followed = starts_[*end].followed = true;
-  result_.arcs.push_back({contenders_[left].site, contenders_[right].site, from, starts_[*end].node, contenders_.tangent(left, right)});
+  result_.arcs.push_back({contenders_[arc.left].site, contenders_[arc.right].site, arc.node, starts_[*end].node, contenders_.tangent(arc.left, arc.right)});
   return true;
+}
+
+/// The first vertex found, in the order in which they seem to come. Who has none, or this one, need not be excluded any more.
+std::optional<BorderTracer::Found> BorderTracer::first_vertex(const Start& arc) {
+  choose_order(arc);
+  for (std::size_t n = 0; n < thirds_.size();) {
+    auto found = vertices_.find_in_doubles(arc.left, arc.right, thirds_[n].wave);
+    if (!found)
+      ++n;
+    else
+      thirds_.erase(thirds_.begin() + static_cast<std::ptrdiff_t>(n));
+    if (found && found->exists) return found;
+  }
+  return std::nullopt;
+}
+
+/// Whether no other wave ends the arc before the end found.
+bool BorderTracer::are_excluded(const Start& arc, const Node& end) {
+  const Node& start = result_.nodes[arc.node];
+  const double radius = std::max(start.x.rad() + start.y.rad(), end.x.rad() + end.y.rad());
+  const auto piece = BisectorPiece::between(filter_[arc.left].wave, filter_[arc.right].wave, middle(start), middle(end), radius);
+  for (const Third& third : thirds_) {
+    if (piece && is_off(*piece, third.wave)) {
+      ladder_.count(Predicate::conflict, robust::Stage::filter);
+      continue;
+    }
+    const auto found = vertices_.find_in_doubles(arc.left, arc.right, third.wave);
+    if (!found || found->exists) return false;
+  }
+  return true;
+}
+
+/// Whether a wave certainly has no part in the piece: it is farther all along, or does not see it.
+bool BorderTracer::is_off(const BisectorPiece& piece, std::uint32_t wave) const {
+  const auto& other = filter_[wave];
+  return piece.is_nearer_than(other.wave) || (other.has_cone && (piece.is_right_of(other.ray[0]) || piece.is_right_of(other.ray[1])));
+}
+
+/// Along the tangent of the arc; only an order of asking.
+void BorderTracer::choose_order(const Start& arc) {
+  const Point p = middle(result_.nodes[arc.node]);
+  const Point left = gradient(filter_[arc.left].wave, p), right = gradient(filter_[arc.right].wave, p);
+  const Point normal{left.x - right.x, left.y - right.y};
+  const double size = std::sqrt(normal.x * normal.x + normal.y * normal.y);
+  const Point along{-normal.y / size, normal.x / size};
+  for (Third& third : thirds_) third.ahead = tie_ahead(arc, third.wave, p, along);
+  std::sort(thirds_.begin(), thirds_.end(), [](const Third& a, const Third& b) { return a.ahead != b.ahead ? a.ahead < b.ahead : a.wave < b.wave; });
+}
+
+/// How far ahead a wave seems to tie with the two.
+double BorderTracer::tie_ahead(const Start& arc, std::uint32_t other, const Point& p, const Point& along) const {
+  for (const std::uint32_t own : {arc.left, arc.right}) {
+    if (contenders_.tangent_end(own, other) != Contenders::kNotTangent) return ray_ahead(own, contenders_.tangent_end(own, other), p, along);
+    if (contenders_.tangent_end(other, own) != Contenders::kNotTangent) return ray_ahead(other, contenders_.tangent_end(other, own), p, along);
+  }
+  const auto &own = filter_[arc.left].wave, &wave = filter_[other].wave;
+  const Point u = gradient(wave, p), v = gradient(own, p);
+  const double lead = distance(wave, p) - distance(own, p), slope = (u.x - v.x) * along.x + (u.y - v.y) * along.y;
+  if (!(slope < 0)) return kFar;
+  const double ahead = -lead / slope;
+  const Point there{p.x + ahead * along.x, p.y + ahead * along.y};
+  for (std::size_t end = 0; filter_[other].has_cone && end < 2; ++end)
+    if (filter_.cone_side(other, end, there, 0).negative()) return kFar + ahead;
+  return ahead;
+}
+
+double BorderTracer::ray_ahead(std::uint32_t wave, int end, const Point& p, const Point& along) const {
+  const auto& ray = filter_[wave].ray[static_cast<std::size_t>(end)];
+  const double side = ray.along.x * (p.y - ray.from.y) - ray.along.y * (p.x - ray.from.x), slope = ray.along.x * along.y - ray.along.y * along.x;
+  const double ahead = -side / slope;
+  return ahead > 0 ? ahead : kFar;
 }
 
 /// The border that leaves the new vertex against the one that arrives with `left` and `right`.

@@ -103,64 +103,74 @@ bool Contenders::touching(FacetLadder& ladder, const Contender& left, const Cont
   return ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return rays_apart(numbers, left, right); }) == Sign::zero;
 }
 
+/// Whoever is related to another has its image as far from the other's as the weights differ, and few are near that.
+void Contenders::find_pairs(const FacetLadder& ladder) {
+  const auto n = static_cast<std::uint32_t>(list_.size());
+  may_be_related_.clear();
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = 0; j < i; ++j)
+      if (!predicates::certainly_unrelated(ladder.doubles()[list_[i].site], ladder.doubles()[list_[j].site]))
+        may_be_related_.insert(may_be_related_.end(), {{i, j}, {j, i}});
+  std::sort(may_be_related_.begin(), may_be_related_.end());
+}
+
 void Contenders::merge_same_images(FacetLadder& ladder) {
-  for (std::size_t i = 0; i < list_.size(); ++i) {
-    for (std::size_t j = 0; j < list_.size(); ++j) {
-      Contender &left = list_[i], &right = list_[j];
-      if (i == j || !may_have_one_image(ladder, left, right)) continue;
-      if (!may_touch(ladder, left, right) || !same_image(ladder, left, right) || !touching(ladder, left, right)) continue;
-      left.cone[1] = right.cone[1];
-      left.attains_cone[1] = right.attains_cone[1];
-      left.cone_site[1] = right.cone_site[1];
-      left.entry |= right.entry;
-      const std::uint32_t lowest = std::min(left.site, right.site);
-      for (std::uint32_t& site : representative_)
-        if (site == left.site || site == right.site) site = lowest;
-      left.site = lowest;
-      for (std::size_t k = 0; k < 3; ++k) {
-        left.attains_corner[k] = left.attains_corner[k] || right.attains_corner[k];
-        if (left.path_to_corner[k] == FacetSite::kNoPath) left.path_to_corner[k] = right.path_to_corner[k];
-      }
-      list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(j));
-      i = static_cast<std::size_t>(-1);  // start again: the merged cone may touch another
-      break;
-    }
+  const auto to_be_merged = [&](const auto& pair) { return are_to_be_merged(ladder, pair[0], pair[1]); };
+  for (;;) {  // again: the merged cone may touch another
+    find_pairs(ladder);
+    const auto found = std::find_if(may_be_related_.begin(), may_be_related_.end(), to_be_merged);
+    if (found == may_be_related_.end()) return;
+    merge((*found)[0], (*found)[1]);
+  }
+}
+
+bool Contenders::are_to_be_merged(FacetLadder& ladder, std::size_t i, std::size_t j) const {
+  const Contender &left = list_[i], &right = list_[j];
+  return may_have_one_image(ladder, left, right) && may_touch(ladder, left, right) && same_image(ladder, left, right) && touching(ladder, left, right);
+}
+
+void Contenders::merge(std::size_t i, std::size_t j) {
+  Contender &left = list_[i], &right = list_[j];
+  left.cone[1] = right.cone[1];
+  left.attains_cone[1] = right.attains_cone[1];
+  left.cone_site[1] = right.cone_site[1];
+  left.entry |= right.entry;
+  const std::uint32_t lowest = std::min(left.site, right.site);
+  for (std::uint32_t& site : representative_)
+    if (site == left.site || site == right.site) site = lowest;
+  left.site = lowest;
+  for (std::size_t k = 0; k < 3; ++k) {
+    left.attains_corner[k] = left.attains_corner[k] || right.attains_corner[k];
+    if (left.path_to_corner[k] == FacetSite::kNoPath) left.path_to_corner[k] = right.path_to_corner[k];
+  }
+  list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(j));
+}
+
+void Contenders::find_tangent_end(const FacetLadder& ladder, std::size_t p, std::size_t r) {
+  const Contender &parent = list_[p], &relay = list_[r];
+  for (std::size_t end = 0; parent.has_cone && end < 2; ++end) {
+    if (relay.root != parent.cone[end] || !parent.attains_cone[end]) continue;
+    const auto& sites = ladder.filter().sites;
+    if (separated(sites[relay.site]->image, sites[parent.cone_site[end]]->cone[end])) continue;  // it went another way round
+    if (relay.corner == FacetSite::kNoCorner && !waves_.is_at_cone_vertex(parent.cone_site[end], relay.site)) continue;
+    pair(p, r).tangent = static_cast<signed char>(end);
   }
 }
 
 void Contenders::find_tangencies(FacetLadder& ladder) {
-  const std::size_t n = list_.size();
-  tangent_.assign(n * n, kNotTangent);
-  for (std::size_t p = 0; p < n; ++p) {
-    const Contender& parent = list_[p];
-    if (!parent.has_cone) continue;
-    for (std::size_t r = 0; r < n; ++r) {
-      if (r == p) continue;
-      const Contender& relay = list_[r];
-      for (std::size_t end = 0; end < 2; ++end) {
-        if (relay.root != parent.cone[end] || !parent.attains_cone[end]) continue;
-        const auto& sites = ladder.filter().sites;
-        if (separated(sites[relay.site]->image, sites[parent.cone_site[end]]->cone[end])) continue;  // it went another way round
-        if (relay.corner == FacetSite::kNoCorner && !waves_.is_at_cone_vertex(parent.cone_site[end], relay.site)) continue;
-        tangent_[p * n + r] = static_cast<signed char>(end);
-      }
-    }
-  }
-  eclipsed_.assign(n * n, 0);
-  for (std::size_t p = 0; p < n; ++p)
-    for (std::size_t r = 0; r < n; ++r)
-      eclipsed_[p * n + r] = p != r && (tangent_[p * n + r] != kNotTangent || finds_eclipse(ladder, list_[p], list_[r])) ? 1 : 0;
-  for (std::size_t p = 0; p < n; ++p)
-    for (std::size_t r = 0; r < n; ++r)
-      if (eclipsed_[p * n + r] != 0 && tangent_[p * n + r] == kNotTangent)
-        tangent_[p * n + r] = static_cast<signed char>(ray_through(ladder, p, r));
+  pairs_.assign(list_.size() * list_.size(), {});
+  for (const auto& [p, r] : may_be_related_) find_tangent_end(ladder, p, r);
+  for (const auto& [p, r] : may_be_related_)
+    pair(p, r).eclipsed = tangent_end(p, r) != kNotTangent || finds_eclipse(ladder, list_[p], list_[r]);
+  for (const auto& [p, r] : may_be_related_)
+    if (eclipses(p, r) && tangent_end(p, r) == kNotTangent) pair(p, r).tangent = static_cast<signed char>(ray_through(ladder, p, r));
   share_eclipses(ladder);
 }
 
 /// Whether the two are one wave, cones aside: windows of one root, or of two that are as far, with one image.
 bool Contenders::are_one_wave(FacetLadder& ladder, const Contender& a, const Contender& b) const {
   if (a.root == b.root) return may_have_one_image(ladder, a, b) && same_image(ladder, a, b);
-  if (!a.has_cone || !b.has_cone || predicates::certainly_apart(ladder.doubles()[a.site], ladder.doubles()[b.site])) return false;
+  if (!a.has_cone || !b.has_cone) return false;
   const auto& sites = ladder.filter().sites;
   return !separated(sites[a.site]->image, sites[b.site]->image) && waves_.are_proved_one_wave(a.site, b.site);
 }
@@ -169,23 +179,17 @@ bool Contenders::are_one_wave(FacetLadder& ladder, const Contender& a, const Con
 /// what the other does. Two of different roots whose cones touch part at the common ray, behind a vertex that both reach straight on: the region of the
 /// vertex is that ray, no wider.
 void Contenders::share_eclipses(FacetLadder& ladder) {
-  const std::size_t n = list_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      const Contender &a = list_[i], &b = list_[j];
-      if (i == j || !are_one_wave(ladder, a, b)) continue;
-      if (a.root != b.root && may_touch(ladder, a, b) && touching(ladder, a, b)) tangent_[i * n + j] = 1;
-      eclipsed_[i * n + j] = 1;
-      for (std::size_t k = 0; k < n; ++k) {
-        if (k != i && eclipsed_[j * n + k] != 0) eclipsed_[i * n + k] = 1;
-        if (k != i && eclipsed_[k * n + j] != 0) eclipsed_[k * n + i] = 1;
-      }
+  for (const auto& [i, j] : may_be_related_) {
+    const Contender &a = list_[i], &b = list_[j];
+    if (!are_one_wave(ladder, a, b)) continue;
+    if (a.root != b.root && may_touch(ladder, a, b) && touching(ladder, a, b)) pair(i, j).tangent = 1;
+    pair(i, j).eclipsed = true;
+    for (std::size_t k = 0; k < list_.size(); ++k) {
+      if (k != i && eclipses(j, k)) pair(i, k).eclipsed = true;
+      if (k != i && eclipses(k, j)) pair(k, i).eclipsed = true;
     }
   }
-  related_.assign(n * n, 0);
-  for (std::size_t p = 0; p < n; ++p)
-    for (std::size_t r = 0; r < n; ++r)
-      if (tangent_[p * n + r] != kNotTangent || eclipsed_[p * n + r] != 0) related_[p * n + r] = related_[r * n + p] = 1;
+  for (const auto& [i, j] : may_be_related_) pair(i, j).related = tangent(i, j) || eclipses(i, j) || eclipses(j, i);
 }
 
 /// Asked only where doubles cannot exclude it: the difference of the weights must be the distance of the images. By identity if the
@@ -200,7 +204,6 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
   const auto heavier = [&](const auto& numbers) {
     return maybe_sign(numbers.sites[relay.site]->weight - numbers.sites[wave.site]->weight);
   };
-  if (predicates::certainly_apart(ladder.doubles()[wave.site], ladder.doubles()[relay.site])) return false;
   if (wave.root == relay.root || gap(ladder.filter()) || heavier(ladder.filter()) == Sign::negative) return false;
   const std::array<std::uint32_t, 3> parts = {wave.site, wave.cone_site[0], wave.cone_site[1]};  // different ones if merged
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -328,11 +331,11 @@ Sign Contenders::mirrored(std::size_t i, std::size_t j, std::size_t side) const 
 bool Contenders::may_be_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const {
   using F = FacetWaves::F;
   const auto &a = waves_.site(entering.site, F()), &b = waves_.site(other.site, F());
+  const auto may_be_zero = [](const F& x) { return maybe_sign(x).value_or(Sign::zero) == Sign::zero; };
+  if (!may_be_zero(a.weight - b.weight)) return false;
   const auto line = predicates::side_line(waves_.frame(F()), side);
   const auto apart = a.image - b.image, twice_the_middle = (a.image - line.origin) + (b.image - line.origin);
-  for (const F& x : {a.weight - b.weight, dot(apart, line.direction), cross(twice_the_middle, line.direction)})
-    if (maybe_sign(x).value_or(Sign::zero) != Sign::zero) return false;
-  return true;
+  return may_be_zero(dot(apart, line.direction)) && may_be_zero(cross(twice_the_middle, line.direction));
 }
 
 bool Contenders::are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const {

@@ -57,15 +57,15 @@ class Contenders {
   const Contender& operator[](std::size_t i) const { return list_[i]; }
   /// The end of the parent's cone at which `relay` starts (then the two tie exactly on that ray, and inside the parent's cone the parent
   /// is nearer), or kNotTangent. Two that are one wave, with cones that touch, are tangent as well: the left one is called the parent.
-  int tangent_end(std::size_t parent, std::size_t relay) const { return tangent_[parent * list_.size() + relay]; }
+  int tangent_end(std::size_t parent, std::size_t relay) const { return pair(parent, relay).tangent; }
   bool tangent(std::size_t a, std::size_t b) const { return tangent_end(a, b) != kNotTangent || tangent_end(b, a) != kNotTangent; }
   /// The one that starts on the ray where a tangent pair parts: the relay, or, if the two are one wave, the vertex between them.
   std::uint32_t starts_on_ray(std::size_t parent, std::size_t relay) const;
   /// Whether `relay` is, by identity, nowhere nearer than `wave`, cones aside: the path to the relay goes through `wave`'s strip, so its weight is
   /// that of `wave` plus the distance of the images, and their bisector is the ray beyond the relay. (Tangent pairs are of this kind.)
-  bool eclipses(std::size_t wave, std::size_t relay) const { return eclipsed_[wave * list_.size() + relay] != 0; }
+  bool eclipses(std::size_t wave, std::size_t relay) const { return pair(wave, relay).eclipsed; }
   /// Whether either of the two eclipses the other one, or is tangent to it.
-  bool related(std::size_t a, std::size_t b) const { return related_[a * list_.size() + b] != 0; }
+  bool related(std::size_t a, std::size_t b) const { return pair(a, b).related; }
   /// Whether the two tie along a side because their images are mirror images in it: positive if i comes in over that side, negative if j does, zero
   /// if nothing of the kind is proved.
   robust::Sign mirrored(std::size_t i, std::size_t j, std::size_t side) const;
@@ -85,12 +85,24 @@ class Contenders {
   std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> sites) const;
 
  private:
+  /// What is known of an ordered pair.
+  struct Pair {
+    signed char tangent = kNotTangent;
+    bool eclipsed = false;  ///< the second by the first
+    bool related = false;
+  };
+  const Pair& pair(std::size_t a, std::size_t b) const { return pairs_[a * list_.size() + b]; }
+  Pair& pair(std::size_t a, std::size_t b) { return pairs_[a * list_.size() + b]; }
+  void find_pairs(const FacetLadder& ladder);
   void merge_same_images(FacetLadder& ladder);
+  bool are_to_be_merged(FacetLadder& ladder, std::size_t left, std::size_t right) const;
+  void merge(std::size_t left, std::size_t right);
   bool may_have_one_image(const FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool same_image(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool may_touch(const FacetLadder& ladder, const Contender& left, const Contender& right) const;
   bool touching(FacetLadder& ladder, const Contender& left, const Contender& right) const;
   void find_tangencies(FacetLadder& ladder);
+  void find_tangent_end(const FacetLadder& ladder, std::size_t parent, std::size_t relay);
   bool are_one_wave(FacetLadder& ladder, const Contender& a, const Contender& b) const;
   void share_eclipses(FacetLadder& ladder);
   bool share_ray(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) const;
@@ -107,8 +119,8 @@ class Contenders {
   mutable std::map<std::array<std::size_t, 3>, bool> mirrored_;  ///< asked for: i that comes in over the side, j, the side
   mutable std::map<std::array<std::size_t, 3>, bool> runs_along_;  ///< asked for: i, end of its cone, side
   std::vector<std::uint32_t> representative_;
-  std::vector<signed char> tangent_;
-  std::vector<std::uint8_t> eclipsed_, related_;
+  std::vector<Pair> pairs_;
+  std::vector<std::array<std::uint32_t, 2>> may_be_related_;  ///< ordered pairs that doubles do not exclude, in order
 };
 
 }  // namespace gvd::kernel

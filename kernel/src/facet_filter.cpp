@@ -80,10 +80,7 @@ FacetFilter::Ray FacetFilter::make_ray(const FacetNumbers<FacetWaves::F>& number
   ray.along = minus(middle(site.cone[end]), ray.from);
   ray.along_error = (ray.from_error + radius(site.cone[end])) * (1 + 0x1p-48);
   if (end == 0) ray.along = {-ray.along.x, -ray.along.y};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double error = (ray.from_error + sides_[c].error) * (1 + 0x1p-48);
-    ray.at_corner[c] = predicates::bounded_cross(ray.along, ray.along_error, minus(sides_[c].origin, ray.from), error);
-  }
+  for (std::size_t c = 0; c < 3; ++c) ray.at_corner[c] = predicates::side_of(ray, sides_[c].origin, sides_[c].error);
   return ray;
 }
 
@@ -119,8 +116,7 @@ Bounded FacetFilter::cone_side(std::size_t k, std::uint32_t i, std::size_t end, 
 }
 
 Bounded FacetFilter::cone_side(std::uint32_t i, std::size_t end, const Point& p, double error) const {
-  const Ray& ray = waves_[i].ray[end];
-  return predicates::bounded_cross(ray.along, ray.along_error, minus(p, ray.from), (ray.from_error + error) * (1 + 0x1p-48));
+  return predicates::side_of(waves_[i].ray[end], p, error);
 }
 
 }  // namespace gvd::kernel

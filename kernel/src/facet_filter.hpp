@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contenders.hpp"
-#include "gvd/predicates/double_wave.hpp"
+#include "gvd/predicates/bisector_piece.hpp"
 
 namespace gvd::kernel {
 
@@ -15,11 +15,9 @@ class FacetFilter {
   using Bounded = predicates::Bounded;
   using Point = predicates::DoublePoint;
 
-  /// A boundary ray of a cone, by two points of it.
-  struct Ray {
-    Point from{0, 0}, along{0, 0};
-    double from_error = 0, along_error = 0;
-    std::array<Bounded, 3> at_corner;  ///< as cone_side: positive inside
+  /// The line of a boundary ray of a cone: the cone is on its left.
+  struct Ray : predicates::DoubleLine {
+    std::array<Bounded, 3> at_corner;  ///< on which side the corners are
   };
   /// A part of a side.
   struct Stretch {

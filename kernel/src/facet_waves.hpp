@@ -71,7 +71,9 @@ class FieldWaves final : public FacetWaves {
   bool have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   std::uint8_t side_entered(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const;
+  WindowId last_turn(WindowId strip, VertexId v) const;
   std::optional<Sides> sides_since(WindowId strip, VertexId v) const;
+  bool goes_on_as(WindowId strip, WindowId since, WindowId other) const;
   WindowId arrival(WindowId strip, VertexId v) const;
   bool has_relay_on_strip(std::size_t parent, std::size_t relay) const;
   bool comes_straight_through(VertexId nearer, VertexId farther, WindowId strip) const;

@@ -257,14 +257,21 @@ bool Ring::add_ties(const Node& node, std::vector<std::uint32_t>& known) {
   std::vector<std::uint32_t> others;
   for (std::uint32_t i = 0; i < contenders_.size(); ++i)
     if (std::find(known.begin(), known.end(), i) == known.end()) others.push_back(i);
+  bool may_be_known = true;
   while (!others.empty()) {
-    auto other = std::find_if(others.begin(), others.end(), [&](std::uint32_t i) {
-      return std::any_of(known.begin(), known.end(), [&](std::uint32_t j) { return tie_by_identity(node, i, j); });
-    });
-    if (other == others.end()) other = others.begin();
+    auto other = others.end();
+    if (may_be_known)
+      other = std::find_if(others.begin(), others.end(), [&](std::uint32_t i) {
+        return std::any_of(known.begin(), known.end(), [&](std::uint32_t j) { return tie_by_identity(node, i, j); });
+      });
+    may_be_known = other != others.end();
+    if (!may_be_known) other = others.begin();
     const auto tied = ties(node, known, *other);
     if (!tied) return false;
-    if (*tied) known.push_back(*other);
+    if (*tied) {
+      known.push_back(*other);
+      may_be_known = true;
+    }
     others.erase(other);
   }
   return true;

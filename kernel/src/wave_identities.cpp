@@ -53,21 +53,37 @@ bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
   return enclose_only_flat(sides_of(strip(left)), sides_of(strip(right)));
 }
 
-/// The sides that a strip crosses since it turned about a vertex; empty if it never did, or more than once: then it saw the vertex in several places.
-std::optional<FieldWaves::Sides> FieldWaves::sides_since(WindowId strip, VertexId v) const {
+/// The last window of a strip that turns about a vertex; kNone if none does, or if some do, others follow and then some again: then the strip saw the
+/// vertex in several places.
+WindowId FieldWaves::last_turn(WindowId strip, VertexId v) const {
   const Mesh& mesh = resolution_.frames().mesh();
-  Sides since;
-  bool turned = false, left = false;
-  for (WindowId w = strip; w != kNone; w = field_.windows[w].parent) {
+  const auto turns = [&](WindowId w) {
     const HalfedgeId h = field_.windows[w].halfedge();
-    const bool turns = mesh.origin(h) == v || mesh.target(h) == v;
-    if (left && turns) return std::nullopt;
-    if (!turned && !turns) since.push_back(mesh.twin(h));
-    left = left || (turned && !turns);
-    turned = turned || turns;
-  }
+    return mesh.origin(h) == v || mesh.target(h) == v;
+  };
+  WindowId last = strip;
+  while (last != kNone && !turns(last)) last = field_.windows[last].parent;
+  WindowId w = last;
+  while (w != kNone && turns(w)) w = field_.windows[w].parent;
+  while (w != kNone && !turns(w)) w = field_.windows[w].parent;
+  return w == kNone ? last : kNone;
+}
+
+/// The sides that a strip crosses since it turned about a vertex; empty if it never did, or more than once.
+std::optional<FieldWaves::Sides> FieldWaves::sides_since(WindowId strip, VertexId v) const {
+  const WindowId last = last_turn(strip, v);
+  if (last == kNone) return std::nullopt;
+  Sides since;
+  for (WindowId w = strip; w != last; w = field_.windows[w].parent) since.push_back(resolution_.frames().mesh().twin(field_.windows[w].halfedge()));
   std::reverse(since.begin(), since.end());
-  return turned ? std::optional(std::move(since)) : std::nullopt;
+  return since;
+}
+
+/// Whether what a strip crosses since window `since` is all that the strip of another one crosses; its own name is kNone if it crosses nothing.
+bool FieldWaves::goes_on_as(WindowId strip, WindowId since, WindowId other) const {
+  for (; strip != since && other != kNone; strip = field_.windows[strip].parent, other = field_.windows[other].parent)
+    if (field_.windows[strip].halfedge() != field_.windows[other].halfedge()) return false;
+  return strip == since && other == kNone;
 }
 
 /// The window of a strip that has a vertex as its apex; kNone if the strip begins beside the vertex.
@@ -185,8 +201,9 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
 /// Whether the parent's strip turns about the relay, which it arrives at by the nearest way, and then sees it where the relay's own strip does.
 bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
   const VertexId v = sites[relay].root;
-  const auto since = sides_since(sites[parent].window, v);
-  if (!since || !is_image_of_root(*since, relay)) return false;
+  const WindowId turn = last_turn(sites[parent].window, v);
+  if (turn == kNone) return false;
+  if (!goes_on_as(sites[parent].window, turn, sites[relay].window) && !is_image_of_root(*sides_since(sites[parent].window, v), relay)) return false;
   const WindowId w = arrival(sites[parent].window, v);
   if (w == sites[parent].window) return false;  // it comes to the vertex once more, as a corner of this facet
   if (w == kNone) return resolution_.attains_along_edge(sites[parent].root, v);

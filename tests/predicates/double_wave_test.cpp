@@ -130,7 +130,7 @@ TEST(DoubleWave, CrossProductsAreWithinTheirBounds) {
   }
 }
 
-TEST(DoubleWave, ARelayOnItsParentsRayIsNeverCalledApart) {
+TEST(DoubleWave, ARelayOnItsParentsRayIsNeverCalledUnrelated) {
   Family family(5);
   for (int round = 0; round < 5000; ++round) {
     auto parent = random_site(family), relay = random_site(family);
@@ -138,9 +138,9 @@ TEST(DoubleWave, ARelayOnItsParentsRayIsNeverCalledApart) {
     relay.image = {F(relay.image.x.mid()), F(relay.image.y.mid())};
     parent.weight = F(parent.weight.mid());
     relay.weight = gvd::predicates::distance(parent, relay.image);
-    EXPECT_FALSE(gvd::predicates::certainly_apart(gvd::predicates::double_wave(parent), gvd::predicates::double_wave(relay))) << "round " << round;
+    EXPECT_FALSE(gvd::predicates::certainly_unrelated(gvd::predicates::double_wave(parent), gvd::predicates::double_wave(relay))) << "round " << round;
     relay.weight = relay.weight * F(1 + 0x1p-30);
-    EXPECT_TRUE(gvd::predicates::certainly_apart(gvd::predicates::double_wave(parent), gvd::predicates::double_wave(relay)) || relay.weight.mid() < 0x1p-10)
+    EXPECT_TRUE(gvd::predicates::certainly_unrelated(gvd::predicates::double_wave(parent), gvd::predicates::double_wave(relay)) || relay.weight.mid() < 0x1p-10)
         << "round " << round;
   }
 }

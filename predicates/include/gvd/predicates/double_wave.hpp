@@ -52,10 +52,11 @@ inline Bounded lag_at_image(const DoubleWave& a, const DoubleWave& b) noexcept {
   return {at_b - b.weight, (a.error + b.error + kDoubleWaveError * (at_b + std::fabs(b.weight))) * (1 + 0x1p-48) + 0x1p-499};
 }
 
-/// Whether the image of b is certainly not where wave a has just the weight of b.
-inline bool certainly_apart(const DoubleWave& a, const DoubleWave& b) noexcept {
-  const Bounded lag = lag_at_image(a, b);
-  return lag.positive() || lag.negative();
+/// Whether the images are certainly not as far apart as the weights: then the two never come along one line.
+inline bool certainly_unrelated(const DoubleWave& a, const DoubleWave& b) noexcept {
+  const double dx = a.image.x - b.image.x, dy = a.image.y - b.image.y, later = std::fabs(a.weight - b.weight);
+  const double apart = std::sqrt(dx * dx + dy * dy);
+  return std::fabs(apart - later) > (a.error + b.error + kDoubleWaveError * (apart + later)) * (1 + 0x1p-48) + 0x1p-499;
 }
 
 /// Whether a is nearer than b everywhere, by the triangle inequality: it is at the image of b.
