@@ -52,6 +52,7 @@ Resolution::Resolution(const Frames& frames, DistanceField& field, const std::ve
   for (std::size_t i = 0; i < sources.size(); ++i) source_of_vertex_[sources[i].vertex] = static_cast<std::uint32_t>(i);
   labels_.assign(n, kNone);
   proved_.assign(n, 0);
+  straightest_.resize(n);
   distance_.resize(n);
 }
 
@@ -199,6 +200,11 @@ void Resolution::resolve_vertex(VertexId v, predicates::Decisions& decisions) {
   distance_[v] = length(field_.candidates[list.front()], v);
   field_.first_candidate[v] = list.front();
   for (std::size_t i = 0; i < list.size(); ++i) field_.candidates[list[i]].next = i + 1 < list.size() ? list[i + 1] : kNone;
+  for (const std::uint32_t c : list) {
+    const VertexId via = field_.candidates[c].via;
+    const std::uint32_t legs = via == v ? 0 : straightest_[via].legs + 1;
+    if (c == list.front() || legs < straightest_[v].legs) straightest_[v] = {c, legs};
+  }
 }
 
 namespace {
@@ -334,10 +340,18 @@ bool Resolution::have_equal_distances(VertexId a, VertexId b) const {
   return to_a && to_b && compare(*to_a, *to_b) == robust::Sign::zero;
 }
 
+/// Of the paths that tie at a vertex the one found first, or, if that has too many legs, the one with the fewest: along edges in one line, each flat vertex
+/// ends a leg.
 std::optional<Resolution::Path> Resolution::exact_path(const Candidate& candidate, VertexId v) const {
+  if (auto path = exact_path(candidate, v, [&](VertexId u) { return field_.first_candidate[u]; })) return path;
+  return exact_path(candidate, v, [&](VertexId u) { return straightest_[u].candidate; });
+}
+
+template <class Winner>
+std::optional<Resolution::Path> Resolution::exact_path(const Candidate& candidate, VertexId v, const Winner& winner) const {
   Path path;
   const Candidate* c = &candidate;
-  for (; c->via != v; v = c->via, c = &field_.candidates[field_.first_candidate[v]]) {
+  for (; c->via != v; v = c->via, c = &field_.candidates[winner(v)]) {
     if (path.legs.size() == kMostLegs) return std::nullopt;
     path.legs.push_back({c->window, c->via, v, squared_leg(*c, v)});
   }

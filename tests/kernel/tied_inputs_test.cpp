@@ -122,6 +122,23 @@ TEST(TiedInputs, MirroredTerrain) {
   }
 }
 
+TEST(TiedInputs, LongStraightLines) {
+  // From one flat vertex to the next a path along edges has a leg each, far more than are compared exactly; a window has one that is as long.
+  for (const int slope : {0, 1}) {
+    const Mesh mesh(test::grid(2, 60, [&](auto x, auto) { return slope * std::abs(x - 1.0); }));
+    for (const std::vector<VertexId>& at : {std::vector<VertexId>{0}, {1}, {0, 182}}) {
+      std::vector<Source> sources;
+      for (const VertexId v : at) sources.push_back(test::at_vertex(mesh, v));
+      test::expect_truth(mesh, sources, [&](VertexId v, std::size_t s) {
+        const auto place = [&](VertexId u) { return std::array{static_cast<int>(u % 3), static_cast<int>(u / 3)}; };
+        const auto a = place(v), b = place(at[s]);
+        const int dx = a[0] - b[0], dy = a[1] - b[1];
+        return robust::RootSum(1, (1 + slope) * dx * dx + dy * dy);
+      });
+    }
+  }
+}
+
 TEST(TiedInputs, SourcesInARowInOneFace) {
   // Their bisectors are parallel: no three of them meet, in whatever face they are seen together. Beyond the source's own face nearly every face has a
   // square class of its own, so only numbers of the place where the strips part show it.

@@ -49,12 +49,12 @@ struct FoldedGrid {
 };
 
 /// Panels of whole width, of one class, or of two, each of them again and again: vertices in line abound.
-inline FoldedGrid folded_grid(Random& random) {
+inline FoldedGrid folded_grid(std::uint32_t rows, Random& random) {
   constexpr std::array<std::array<std::array<int, 2>, 2>, 5> kPanels{{{{{1, 0}, {0, 2}}}, {{{3, 4}, {1, 0}}}, {{{1, 1}, {2, 2}}}, {{{1, 1}, {1, 2}}}, {{{1, 2}, {1, 3}}}}};
   const auto& kinds = kPanels[random.below(5)];
   std::vector<std::array<int, 2>> panels;
   for (std::uint32_t i = 0, n = 4 + random.below(4); i < n; ++i) panels.push_back(kinds[random.below(3) == 0 ? 1 : 0]);
-  return {panels, 3 + random.below(2), random};
+  return {panels, rows, random};
 }
 
 }  // namespace gvd::test

@@ -70,6 +70,28 @@ class LatticeWaves final : public kernel::FacetWaves {
     }
   }
 
+  static constexpr std::array<std::uint8_t, 3> kMirroredCorner{1, 0, 2}, kMirroredSide{0, 2, 1};
+  /// In a mirror that exchanges corners 0 and 1, the waves in the opposite order.
+  LatticeWaves mirrored() const {
+    const auto image = [&](const LatticePoint& p) { return LatticePoint{length_ - p.x, p.y}; };
+    LatticeWaves result(c_, r_, length_, image(apex_));
+    result.offers_exact = offers_exact;
+    for (std::size_t i = waves_.size(); i-- > 0;) {
+      LatticeWave wave = waves_[i];
+      wave.side = kMirroredSide[wave.side];
+      wave.image = image(wave.image);
+      if (wave.cone) wave.cone = {image((*wave.cone)[1]), image((*wave.cone)[0])};
+      kernel::FacetSite site = sites[i];
+      site.side = wave.side;
+      std::swap(site.cone[0], site.cone[1]);
+      std::swap(site.attains_cone[0], site.attains_cone[1]);
+      std::swap(site.attains_corner[0], site.attains_corner[1]);
+      result.waves_.push_back(wave);
+      result.sites.push_back(site);
+    }
+    return result;
+  }
+
   const std::vector<LatticeWave>& waves() const { return waves_; }
   std::array<Real, 2> flat(const LatticePoint& p) const { return {real(p.x), real(p.y) * sqrt(Real(c_))}; }
   /// Cones aside.
@@ -95,22 +117,20 @@ class LatticeWaves final : public kernel::FacetWaves {
 
   bool offers_exact = true;
 
- private:
   template <class NT>
   struct Numbers {
     int bits = -1;
     predicates::FacetFrame<NT> frame;
     std::deque<predicates::Site<NT>> sites;
   };
-  template <class NT>
-  const Numbers<NT>& numbers(Numbers<NT>& known, int bits) const {
-    if (known.bits == bits) return known;
-    const NT axis = sqrt(robust::from<NT>(c_, bits)), root = sqrt(robust::from<NT>(r_, bits));
-    const auto number = [&](const mpq_class& q) { return robust::from<NT>(q / length_, bits); };
+  /// In any number type; `from` makes a number of a rational.
+  template <class NT, class From>
+  Numbers<NT> numbers_from(const From& from) const {
+    Numbers<NT> known;
+    const NT axis = sqrt(from(c_)), root = sqrt(from(r_));
+    const auto number = [&](const mpq_class& q) { return from(q / length_); };
     const auto point = [&](const LatticePoint& p) { return predicates::PlanePoint<NT>{number(p.x), number(p.y) * axis}; };
-    known.bits = bits;
-    known.frame = {point(apex_), robust::from<NT>(length_, bits)};
-    known.sites.clear();
+    known.frame = {point(apex_), from(length_)};
     for (const LatticeWave& wave : waves_) {
       predicates::Site<NT> site;
       site.image = point(wave.image);
@@ -119,6 +139,15 @@ class LatticeWaves final : public kernel::FacetWaves {
       if (wave.cone) site.cone = {point((*wave.cone)[0]), point((*wave.cone)[1])};
       known.sites.push_back(site);
     }
+    return known;
+  }
+
+ private:
+  template <class NT>
+  const Numbers<NT>& numbers(Numbers<NT>& known, int bits) const {
+    if (known.bits == bits) return known;
+    known = numbers_from<NT>([&](const mpq_class& q) { return robust::from<NT>(q, bits); });
+    known.bits = bits;
     return known;
   }
 

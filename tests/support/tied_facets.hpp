@@ -38,7 +38,7 @@ struct TiedFacet {
       const LatticePoint a = corner(k), along = minus(corner((k + 1u) % 3), a);
       const mpq_class inside = cross(along, minus(p, a)), outside = cross(along, minus(image, a));
       if (sgn(outside) >= 0) continue;
-      const mpq_class t = inside / (inside - outside);
+      const mpq_class t = sgn(inside) <= 0 ? mpq_class(0) : mpq_class(inside / (inside - outside));
       if (first && t >= *first) continue;
       first = t;
       side = k;
@@ -133,8 +133,8 @@ inline const std::vector<LatticeCircle>& lattice_circles() {
   return circles;
 }
 
-/// Three or four waves that tie at a corner, on a side or inside. `mirrored`: two of them in side 0. `one_source`: all come from it, which is cheap to decide.
-inline TiedFacet tied_facet(Node::Kind kind, bool mirrored, bool one_source, Random& random) {
+/// `n` waves that tie at a corner, on a side or inside. `mirrored`: two of them in side 0. `one_source`: all come from it, which is cheap to decide.
+inline TiedFacet tied_facet(Node::Kind kind, std::size_t n, bool mirrored, bool one_source, Random& random) {
   TiedFacet f;
   f.kind = kind;
   f.one_source = one_source;
@@ -147,7 +147,6 @@ inline TiedFacet tied_facet(Node::Kind kind, bool mirrored, bool one_source, Ran
   f.p = kind == Node::Kind::corner ? LatticePoint{0, 0} : kind == Node::Kind::side ? LatticePoint{1 + random.below(3), 0} : LatticePoint{2, 1};
   if (kind == Node::Kind::inside) f.apex = {1 + random.below(3), 3 + random.below(2)};
   const bool weighted = !one_source && random.below(2) == 0;
-  const std::size_t n = kind == Node::Kind::inside ? 4 : 3 + random.below(2);
   while (f.to_image.size() < n) {
     const auto& [x, y] = circle.points[random.below(static_cast<std::uint32_t>(circle.points.size()))];
     LatticePoint v{x, y};
@@ -182,15 +181,15 @@ inline TiedFacet neighbour(TiedFacet f, Random& random) {
   return f;
 }
 
-/// Two walls: the boundary rays of two windows meet in a point inside, where they and the relays at the ends of the walls tie.
-struct TwoWalls {
-  TiedFacet circle;         ///< of two images; the second may be late
-  std::array<int, 2> end;   ///< which ray of each window ends at its relay
+/// Walls: the boundary rays of their windows meet in a point inside, where these and the relays at the ends of the walls tie.
+struct Walls {
+  TiedFacet circle;      ///< an image a wall; the second one may be late, if there are only two
+  std::vector<int> end;  ///< which ray of each window ends at its relay
 
-  /// Per wall the window and its relay: sites 0 and 1, 2 and 3.
+  /// Per wall the window and its relay: sites 0 and 1, 2 and 3, ...
   LatticeWaves waves() const {
     LatticeWaves result(circle.c, circle.square, circle.length, circle.apex);
-    for (std::uint32_t i = 0; i < 2; ++i) {
+    for (std::uint32_t i = 0; i < end.size(); ++i) {
       LatticeWave parent = circle.wave(i), relay = parent;
       const LatticePoint back = mpq_class(-circle.share[i]) * circle.to_image[i];  // from the image to p
       relay.image = parent.image + mpq_class(1, 4) * back;
@@ -200,7 +199,7 @@ struct TwoWalls {
       const LatticePoint open = parent.image + (end[i] == 0 ? mpq_class(-1) : mpq_class(1)) * aside;
       parent.cone = end[i] == 0 ? std::array{relay.image, open} : std::array{open, relay.image};
       const std::uint32_t site = result.add(parent);
-      if (circle.late[0] == circle.late[1]) result.sites[site].root = result.sites[0].root;
+      if (circle.late[i] == circle.late[0]) result.sites[site].root = result.sites[0].root;
       result.add_relay(site, static_cast<std::size_t>(end[i]), relay);
     }
     result.finish();
@@ -213,11 +212,15 @@ struct TwoWalls {
   std::uint32_t seeing(std::uint32_t wall, const LatticePoint& step) const {
     return TiedFacet::cross(circle.to_image[wall], step) > 0 ? after(wall) : before(wall);
   }
-  /// The regions that meet in points at p, or a hair off it: in all four if none is late, else on each ray by itself.
+  /// The regions that meet in points at p, or a hair off it: in all if none is late, else on each of the two rays by itself.
   std::vector<std::vector<std::uint32_t>> nodes() const {
     const mpq_class late = circle.late[1] - circle.late[0];
-    if (late == 0) return {{before(0), after(0), before(1), after(1)}};
     std::vector<std::vector<std::uint32_t>> result;
+    if (late == 0) {
+      result.emplace_back();
+      for (const std::uint32_t wall : circle.regions()) result[0].insert(result[0].end(), {before(wall), after(wall)});
+      return result;
+    }
     for (std::uint32_t wall = 0; wall < 2; ++wall) {  // towards the image of the later one, off that of the other
       const bool towards = (wall == 1) == (late > 0);
       const LatticePoint step = mpq_class(towards ? 1 : -1) * circle.to_image[wall];
@@ -225,26 +228,35 @@ struct TwoWalls {
     }
     return result;
   }
+  /// The first two alone, the second one late.
+  Walls two_of_them(const mpq_class& late) const {
+    Walls two = *this;
+    two.end.resize(2);
+    two.circle.to_image.resize(2);
+    two.circle.share.resize(2);
+    two.circle.late = {0, late};
+    return two;
+  }
 };
 
-inline TwoWalls two_walls(Random& random) {
-  TwoWalls w;
-  do {
-    w.circle = tied_facet(Node::Kind::inside, false, true, random);
-    w.circle.to_image.resize(2);
-    w.circle.share.resize(2);
-    w.circle.late.resize(2);
-  } while (TiedFacet::cross(w.circle.to_image[0], w.circle.to_image[1]) == 0);
-  w.end = {static_cast<int>(random.below(2)), static_cast<int>(random.below(2))};
+/// No two of them face to face.
+inline Walls walls(std::size_t n, Random& random) {
+  Walls w;
+  const auto facing = [&](const LatticePoint& a) {
+    return std::any_of(w.circle.to_image.begin(), w.circle.to_image.end(), [&](const auto& b) { return TiedFacet::cross(a, b) == 0 && w.circle.dot(a, b) < 0; });
+  };
+  do w.circle = tied_facet(Node::Kind::inside, n, false, true, random);
+  while (std::any_of(w.circle.to_image.begin(), w.circle.to_image.end(), facing));
+  for (std::size_t i = 0; i < n; ++i) w.end.push_back(static_cast<int>(random.below(2)));
   return w;
 }
 
-/// Three images in a row, beyond one side, of one distance: nowhere do all three tie. `bent`: the middle one a hair off the row, so that they do, far away.
-inline LatticeWaves images_in_a_row(int c, bool bent, const mpq_class& step, Random& random) {
+/// `n` images in a row, beyond one side, of one distance: nowhere do three of them tie. `bent`: the second one a hair off the row, so that it does, far away.
+inline LatticeWaves images_in_a_row(int c, int n, bool bent, const mpq_class& step, Random& random) {
   LatticeWaves waves(c, 1, 6, {2 + random.below(3), 5});
   const LatticePoint first{static_cast<int>(random.below(4)) - 1, -3 - static_cast<int>(random.below(3))};
   const LatticePoint along{1 + random.below(2), mpq_class(static_cast<int>(random.below(3)) - 1, 2)};
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < n; ++i) {
     LatticePoint image = first + mpq_class(i) * along;
     if (bent && i == 1) image.y += step;
     const std::uint32_t site = waves.add({0, image, 0, 0});

@@ -51,6 +51,7 @@ Stage check(const ClosingFan& fan, const std::vector<ExactCorner>& corners, Sign
   const Decision d = compare_angle_sum(corners, turns);
   EXPECT_EQ(d.sign, expected);
   if (all_stages) {
+    EXPECT_EQ(compare_angle_sum(std::vector(corners.rbegin(), corners.rend()), turns).sign, expected);
     EXPECT_EQ(double_double_compare_angle_sum(corners, turns).value_or(expected), expected);
     EXPECT_EQ(exact_compare_angle_sum(corners, turns).value_or(expected), expected);
     EXPECT_EQ(multiprecision_compare_angle_sum(corners, turns, 512).value_or(expected), expected);

@@ -1,7 +1,9 @@
 // Worst cases of the decisions inside a facet: waves that tie at a corner, on a side or inside by construction, and their nearest neighbours.
-#include "support/tied_facets.hpp"
-
+#include "../../kernel/src/facet_filter.hpp"
+#include "../../kernel/src/vertex_finder.hpp"
 #include "support/facet_reference.hpp"
+#include "support/tied_facets.hpp"
+#include "support/zero_cases.hpp"
 
 namespace gvd::kernel {
 namespace {
@@ -22,31 +24,11 @@ bool is_near(const TiedFacet& f, const Node& node, const LatticeWaves& waves) {
 
 bool same_cycle(std::vector<std::uint32_t> a, const std::vector<std::uint32_t>& b) {
   if (a.size() != b.size()) return false;
+  if (a.empty()) return true;
   for (std::size_t turn = 0; turn < a.size(); ++turn, std::rotate(a.begin(), a.begin() + 1, a.end()))
     if (a == b) return true;
   return false;
 }
-
-class FacetZeros : public testing::Test {
- protected:
-  /// Everything is decided; counted with the zeros, or with their neighbours.
-  FacetTessellation tessellated(LatticeWaves& waves, bool tie) {
-    Decisions decisions;
-    const FacetTessellation t = tessellate(waves, decisions);
-    for (const auto& what : decisions.undecided_list()) ADD_FAILURE() << what;
-    (tie ? zeros : neighbours).merge(decisions);
-    return t;
-  }
-  static std::uint64_t counted(const Decisions& decisions, Predicate p, Stage s) { return decisions(static_cast<std::size_t>(p), s); }
-  void expect_zeros(Predicate p, std::uint64_t least) const { EXPECT_GE(counted(zeros, p, Stage::algebra), least); }
-  void expect_neighbours(Predicate p) const {
-    for (const Stage s : {Stage::filter, Stage::double_double, Stage::mpfr}) EXPECT_GT(counted(neighbours, p, s), 0u) << static_cast<int>(s);
-  }
-  void run(Node::Kind kind, int rounds);
-
-  Random random{800};
-  Decisions zeros, neighbours;
-};
 
 /// At p meet the regions of those that tie there; everything else near p has to do with the wave that came late or early.
 void check(const TiedFacet& f, const LatticeWaves& waves, const FacetTessellation& t) {
@@ -66,86 +48,198 @@ void check(const TiedFacet& f, const LatticeWaves& waves, const FacetTessellatio
   EXPECT_TRUE(others == 0 || f.turned);
 }
 
-void FacetZeros::run(Node::Kind kind, int rounds) {
-  for (int round = 0; round < rounds; ++round) {
-    const TiedFacet f = tied_facet(kind, round % 2 == 0, round % 4 != 0, random), off = neighbour(f, random);
-    for (const bool tie : {true, false}) {
-      const TiedFacet& c = tie ? f : off;
-      LatticeWaves waves = c.waves();
-      const FacetTessellation t = tessellated(waves, tie);
-      check(c, waves, t);
-      if (tie && round % 256 == 0) {
-        EXPECT_EQ(FacetReference(waves).check(t), "");
-      }
-      if (HasFailure()) FAIL() << "round " << round << (tie ? "" : ", neighbour");
+struct NamedNode {
+  Node::Kind kind;
+  std::uint8_t where;
+  std::vector<std::uint32_t> sites;  ///< for one inside, the lowest comes first
+  auto operator<=>(const NamedNode&) const = default;
+};
+/// What meets where. `mirrored`: seen again in the mirror of LatticeWaves::mirrored, the last site the first one.
+std::vector<NamedNode> named_nodes(const FacetTessellation& t, std::uint32_t sites, bool mirrored) {
+  std::vector<NamedNode> list;
+  for (const Node& node : t.nodes) {
+    NamedNode named{node.kind, node.kind == Node::Kind::inside ? std::uint8_t{0} : node.where, node.sites};
+    if (mirrored) {
+      std::reverse(named.sites.begin(), named.sites.end());
+      for (std::uint32_t& site : named.sites) site = sites - 1 - site;
+      if (node.kind == Node::Kind::corner) named.where = LatticeWaves::kMirroredCorner[node.where];
+      if (node.kind == Node::Kind::side) named.where = LatticeWaves::kMirroredSide[node.where];
     }
+    if (node.kind == Node::Kind::inside) std::rotate(named.sites.begin(), std::min_element(named.sites.begin(), named.sites.end()), named.sites.end());
+    list.push_back(named);
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+/// Vertices of single triples, each asked for by itself among the rivals given.
+class TripleVertices {
+ public:
+  TripleVertices(FacetWaves& waves, Decisions& decisions)
+      : waves_(waves), ladder_(waves, decisions), contenders_(waves, ladder_), filter_(contenders_, ladder_) {
+    EXPECT_EQ(contenders_.size(), waves.sites.size());
+  }
+  /// The regions that meet in the vertex, counter-clockwise; empty if there is none.
+  std::vector<std::uint32_t> regions(const std::array<std::uint32_t, 3>& ijk, const std::vector<std::uint32_t>& rivals) {
+    BisectorVertices vertices(waves_, contenders_, filter_, ladder_);
+    vertices.set_rivals(rivals);
+    const BisectorVertices::Found* found = vertices.find(ijk[0], ijk[1], ijk[2]);
+    EXPECT_FALSE(ladder_.failed());
+    return found == nullptr || !found->exists ? std::vector<std::uint32_t>() : found->node.sites;
+  }
+
+ private:
+  FacetWaves& waves_;
+  FacetLadder ladder_;
+  Contenders contenders_;
+  FacetFilter filter_;
+};
+
+/// Calls visit with every triple of a list, in its order.
+template <class Visit>
+void for_each_triple(const std::vector<std::uint32_t>& list, const Visit& visit) {
+  for (std::size_t k = 2; k < list.size(); ++k)
+    for (std::size_t j = 1; j < k; ++j)
+      for (std::size_t i = 0; i < j; ++i) visit(std::array{list[i], list[j], list[k]});
+}
+
+class FacetZeros : public testing::TestWithParam<ZeroShare> {
+ protected:
+  /// Everything is decided; counted with the zeros, or with their neighbours. One facet in 16 is asked again in a mirror and with its waves in the opposite
+  /// order, so that all that is compared is exchanged and all that turns turns the other way; brute force looks at one in 256.
+  FacetTessellation tessellated(LatticeWaves& waves, bool tie, int round) {
+    Decisions decisions;
+    const FacetTessellation t = tessellate(waves, decisions);
+    for (const auto& what : decisions.undecided_list()) ADD_FAILURE() << what;
+    (tie ? counts.zeros : counts.neighbours).merge(decisions);
+    if (asks_all_rungs(round)) {
+      LatticeWaves mirrored = waves.mirrored();
+      const auto n = static_cast<std::uint32_t>(waves.sites.size());
+      EXPECT_EQ(named_nodes(tessellate(mirrored, decisions), n, true), named_nodes(t, n, false));
+    }
+    if (tie && round % 256 == 0) {
+      EXPECT_EQ(FacetReference(waves).check(t), "");
+    }
+    return t;
+  }
+  void at_a_point(Node::Kind kind, int round);
+  void vertices_on_a_side(int round);
+  void where_boundary_rays_meet(int round);
+  void vertices_on_boundary_rays();
+  void images_in_one_row(int round);
+
+  Random random{GetParam().seed()};
+  ZeroCounts counts;
+};
+
+void FacetZeros::at_a_point(Node::Kind kind, int round) {
+  const std::size_t n = kind == Node::Kind::inside ? 4 + random.below(5) : 3 + random.below(5);
+  const TiedFacet f = tied_facet(kind, n, round % 2 == 0, round % 4 != 0, random), off = neighbour(f, random);
+  for (const bool tie : {true, false}) {
+    const TiedFacet& c = tie ? f : off;
+    LatticeWaves waves = c.waves();
+    check(c, waves, tessellated(waves, tie, round));
+    if (HasFailure()) FAIL() << (tie ? "" : "neighbour");
   }
 }
 
-TEST_F(FacetZeros, AtACorner) {
-  run(Node::Kind::corner, 5000);
-  expect_zeros(Predicate::corner_order, 10000);
-  expect_neighbours(Predicate::corner_order);
-}
-
-TEST_F(FacetZeros, OnASide) {
-  run(Node::Kind::side, 1200);
-  expect_zeros(Predicate::edge_tie, 2500);
-  expect_zeros(Predicate::location, 500);
-  expect_neighbours(Predicate::edge_tie);
-  expect_neighbours(Predicate::location);
-}
-
-TEST_F(FacetZeros, Inside) {
-  run(Node::Kind::inside, 1000);
-  expect_zeros(Predicate::conflict, 2000);
-  expect_neighbours(Predicate::conflict);
-}
-
-TEST_F(FacetZeros, WhereBoundaryRaysMeet) {
-  for (int round = 0; round < 2400; ++round) {
-    TwoWalls walls = two_walls(random);
-    for (const bool tie : {true, false}) {
-      if (!tie) walls.circle.late[1] = random.below(2) == 0 ? small_step(random) : mpq_class(-small_step(random));
-      LatticeWaves waves = walls.waves();
-      const FacetTessellation t = tessellated(waves, tie);
-      const auto expected = walls.nodes();
-      std::size_t found = 0;
-      for (const Node& node : t.nodes) {
-        if (node.kind != Node::Kind::inside || !is_near(walls.circle, node, waves)) continue;
-        ++found;
-        EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](const auto& sites) { return same_cycle(node.sites, sites); }));
-      }
-      EXPECT_EQ(found, expected.size());
-      if (tie && round % 256 == 0) {
-        EXPECT_EQ(FacetReference(waves).check(t), "");
-      }
-      if (HasFailure()) FAIL() << "round " << round << (tie ? "" : ", neighbour");
-    }
+/// The outline has what is on a side; a vertex is strictly inside. Neighbours: the centre of the circle just inside, or outside.
+void FacetZeros::vertices_on_a_side(int round) {
+  const TiedFacet f = tied_facet(Node::Kind::side, 6, round % 2 == 0, round % 4 != 0, random);
+  TiedFacet round_about = f;
+  round_about.kind = Node::Kind::inside;  // only for the order of the directions
+  const auto order = round_about.regions();
+  for (const int above : {0, 1, -1}) {
+    TiedFacet c = f;
+    c.p.y += above * small_step(random);
+    LatticeWaves waves = c.waves();
+    TripleVertices vertices(waves, above == 0 ? counts.zeros : counts.neighbours);
+    for_each_triple(order, [&](const auto& ijk) {
+      const auto expected = above > 0 ? std::vector(ijk.begin(), ijk.end()) : std::vector<std::uint32_t>();
+      EXPECT_TRUE(same_cycle(vertices.regions(ijk, {ijk.begin(), ijk.end()}), expected)) << above;
+    });
   }
-  expect_zeros(Predicate::cone_membership, 1000);
-  expect_neighbours(Predicate::cone_membership);
 }
 
-TEST_F(FacetZeros, ImagesInARow) {
-  for (int round = 0; round < 3800; ++round) {
-    const std::uint64_t seed = random.next();
-    const int c = 2 + static_cast<int>(random.below(5));
-    const mpq_class step = random.below(2) == 0 ? small_step(random) : mpq_class(-small_step(random));
-    for (const bool tie : {true, false}) {
-      Random same(seed);
-      LatticeWaves waves = images_in_a_row(c, !tie, step, same);
-      const FacetTessellation t = tessellated(waves, tie);
-      EXPECT_TRUE(std::none_of(t.nodes.begin(), t.nodes.end(), [](const Node& node) { return node.kind == Node::Kind::inside; }));
-      if (round % 256 == 0) {
-        EXPECT_EQ(FacetReference(waves).check(t), "");
-      }
-      if (HasFailure()) FAIL() << "round " << round;
-    }
-  }
-  expect_zeros(Predicate::bisector_vertex, 1000);
-  expect_neighbours(Predicate::bisector_vertex);
+/// Three windows that tie on a boundary ray of each, with the relays there; and with one of them late, when they tie off these rays.
+void FacetZeros::vertices_on_boundary_rays() {
+  const Walls w = walls(5, random);
+  LatticeWaves waves = w.waves();
+  TripleVertices vertices(waves, counts.zeros);
+  const mpq_class step = random.below(2) == 0 ? small_step(random) : mpq_class(-small_step(random));
+  for_each_triple(w.circle.regions(), [&](const auto& ijk) {
+    std::vector<std::uint32_t> expected;
+    for (const std::uint32_t wall : ijk) expected.insert(expected.end(), {w.before(wall), w.after(wall)});
+    const std::array windows{2 * ijk[0], 2 * ijk[1], 2 * ijk[2]};
+    EXPECT_TRUE(same_cycle(vertices.regions(windows, expected), expected));
+
+    // The tie moves at right angles to the difference of the first two directions.
+    const auto &ui = w.circle.to_image[ijk[0]], &uj = w.circle.to_image[ijk[1]], &uk = w.circle.to_image[ijk[2]];
+    const LatticePoint d = TiedFacet::minus(ui, uj);
+    LatticePoint moved{w.circle.c * d.y, -d.x};
+    if (sgn(w.circle.dot(moved, TiedFacet::minus(uk, ui))) * sgn(step) < 0) moved = mpq_class(-1) * moved;
+    const auto on_ray = [&](std::uint32_t wall) { return TiedFacet::cross(w.circle.to_image[wall], moved) == 0; };
+    if (std::any_of(ijk.begin(), ijk.end(), on_ray)) return;
+    const bool exists = std::all_of(ijk.begin(), ijk.end(), [&](std::uint32_t wall) { return w.seeing(wall, moved) == 2 * wall; });
+    Walls off = w;
+    off.circle.late[ijk[2]] = step;
+    LatticeWaves late = off.waves();
+    const auto regions = TripleVertices(late, counts.neighbours).regions(windows, {windows.begin(), windows.end()});
+    EXPECT_TRUE(same_cycle(regions, exists ? std::vector(windows.begin(), windows.end()) : std::vector<std::uint32_t>())) << exists;
+  });
 }
+
+void FacetZeros::where_boundary_rays_meet(int round) {
+  const Walls all = walls(2 + random.below(4), random);
+  const Walls off = all.two_of_them(random.below(2) == 0 ? small_step(random) : mpq_class(-small_step(random)));
+  for (const bool tie : {true, false}) {
+    const Walls& w = tie ? all : off;
+    LatticeWaves waves = w.waves();
+    const FacetTessellation t = tessellated(waves, tie, round);
+    const auto expected = w.nodes();
+    std::size_t found = 0;
+    for (const Node& node : t.nodes) {
+      if (node.kind != Node::Kind::inside || !is_near(w.circle, node, waves)) continue;
+      ++found;
+      EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](const auto& sites) { return same_cycle(node.sites, sites); }));
+    }
+    EXPECT_EQ(found, expected.size());
+    if (HasFailure()) FAIL() << (tie ? "" : "neighbour");
+  }
+}
+
+void FacetZeros::images_in_one_row(int round) {
+  const std::uint64_t seed = random.next();
+  const int c = 2 + static_cast<int>(random.below(5)), n = 3 + static_cast<int>(random.below(4));
+  const mpq_class step = random.below(2) == 0 ? small_step(random) : mpq_class(-small_step(random));
+  for (const bool tie : {true, false}) {
+    Random same(seed);
+    LatticeWaves waves = images_in_a_row(c, n, !tie, step, same);
+    const FacetTessellation t = tessellated(waves, tie, round);
+    EXPECT_TRUE(std::none_of(t.nodes.begin(), t.nodes.end(), [](const Node& node) { return node.kind == Node::Kind::inside; }));
+  }
+}
+
+TEST_P(FacetZeros, AndTheirNeighbours) {
+  const auto [predicate, number] = GetParam();
+  const int most_rounds = static_cast<int>(4 * GetParam().cases());
+  for (int round = 0; counts.at_zero(predicate) < GetParam().cases(); ++round) {
+    ASSERT_LT(round, most_rounds);
+    switch (predicate) {
+      case Predicate::corner_order: at_a_point(Node::Kind::corner, round); break;
+      case Predicate::edge_tie: at_a_point(Node::Kind::side, round); break;
+      case Predicate::location: vertices_on_a_side(round); break;
+      case Predicate::conflict: at_a_point(Node::Kind::inside, round); break;
+      case Predicate::cone_membership: round % 8 == 0 ? where_boundary_rays_meet(round) : vertices_on_boundary_rays(); break;
+      case Predicate::bisector_vertex: images_in_one_row(round); break;
+      default: FAIL() << "no cases of this predicate are made here";
+    }
+    if (HasFailure()) FAIL() << "round " << round;
+  }
+  counts.expect_neighbours(predicate, {Stage::filter, Stage::double_double, Stage::mpfr});
+}
+
+INSTANTIATE_TEST_SUITE_P(Shares, FacetZeros, testing::ValuesIn(shares_of(ZeroTest::facet)), [](const auto& share) { return share.param.name(); });
 
 }  // namespace
 }  // namespace gvd::kernel

@@ -35,11 +35,19 @@ LaidPath neighbour(LaidPath path, const mpq_class& midpoint, Random& random) {
   return path;
 }
 
-Stage check(const LaidPath& path, double expected, bool is_tie) {
+Stage check(const LaidPath& path, double expected, bool is_tie, bool all_rungs) {
   const RoundedLength length = rounded_length(path.described());
   EXPECT_EQ(length.value.has_value(), length.stage != Stage::undecided);
   EXPECT_TRUE(length.value.has_value() || is_tie);
   EXPECT_EQ(length.value.value_or(expected), expected);
+  if (all_rungs) {
+    LaidPath twice = path;
+    twice.given *= 2;
+    for (LaidOut& leg : twice.legs)
+      for (SpacePoint& p : leg.corner)
+        for (double& x : p) x *= 2;
+    EXPECT_EQ(rounded_length(twice.described()).value.value_or(2 * expected), 2 * expected);
+  }
   return length.stage;
 }
 
@@ -58,10 +66,10 @@ TEST_P(RoundedLengthZeros, AndTheirNeighbours) {
     ASSERT_NE(other, mpq_class(even));
     ASSERT_EQ(mpq_class(other.get_d()), other);
     up += mpq_class(even) > c.length;
-    ++tally.zeros[check(c.path, even, true)];
+    ++tally.zeros[check(c.path, even, true, asks_all_rungs(round))];
     const LaidPath off = neighbour(c.path, c.length, random);
     const bool is_tie = sign_of(off.length() - real(c.length), real(c.length)) == robust::Sign::zero;
-    ++tally.neighbours[check(off, truth(off, c.length), is_tie)];
+    ++tally.neighbours[check(off, truth(off, c.length), is_tie, asks_all_rungs(round))];
     if (HasFailure()) FAIL() << "round " << round;
   }
   tally.record();

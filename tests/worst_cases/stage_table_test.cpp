@@ -23,17 +23,16 @@ void look_at_facets(Decisions& decisions) {
   };
   for (int round = 0; round < 60; ++round) {
     for (const Node::Kind kind : {Node::Kind::corner, Node::Kind::side, Node::Kind::inside}) {
-      const TiedFacet f = tied_facet(kind, round % 2 == 0, round % 4 != 0, random);
+      const TiedFacet f = tied_facet(kind, 4, round % 2 == 0, round % 4 != 0, random);
       for (const bool exact : {true, false}) look(f.waves(), exact);
       look(neighbour(f, random).waves(), true);
     }
-    TwoWalls walls = two_walls(random);
-    for (const bool exact : {true, false}) look(walls.waves(), exact);
-    walls.circle.late[1] = small_step(random);
-    look(walls.waves(), true);
+    const Walls two = walls(2, random);
+    for (const bool exact : {true, false}) look(two.waves(), exact);
+    look(two.two_of_them(small_step(random)).waves(), true);
     const mpq_class step = small_step(random);
     for (const bool bent : {false, true})
-      for (const bool exact : {true, false}) look(images_in_a_row(5, bent, step, random), exact);
+      for (const bool exact : {true, false}) look(images_in_a_row(5, 3, bent, step, random), exact);
   }
 }
 
@@ -47,7 +46,7 @@ void solve_into(Decisions& decisions, const Mesh& mesh, const std::vector<Source
 void look_at_folded_grids(Decisions& decisions) {
   Random random(1001);
   for (int round = 0; round < 20; ++round) {
-    const FoldedGrid grid = folded_grid(random);
+    const FoldedGrid grid = folded_grid(3 + random.below(2), random);
     const Mesh mesh(grid.arrays);
     for (const mpq_class& step : {mpq_class(0), mpq_class(1, 1 << 30), mpq_class(1, mpz_class(1) << 60)})
       solve_into(decisions, mesh, {{point_on_edge(mesh, 0, grid.vertex(0, 1), step), 0}, {point_at_vertex(mesh, grid.vertex(0, 2)), 0}}, round < 4);

@@ -120,6 +120,8 @@ class Resolution {
     std::vector<Leg> legs;
   };
   std::optional<Path> exact_path(const Candidate& c, VertexId v) const;
+  template <class Winner>
+  std::optional<Path> exact_path(const Candidate& c, VertexId v, const Winner& winner) const;
   std::optional<robust::RootSum> squared_leg(const Candidate& c, VertexId v) const;
   bool has_long_image(WindowId window) const;
   bool proves_as_far(WindowId window, VertexId v) const;
@@ -135,6 +137,11 @@ class Resolution {
   std::vector<std::uint32_t> source_of_vertex_;
   std::vector<LabelSetId> labels_;
   std::vector<std::uint8_t> proved_;
+  struct Straightest {
+    std::uint32_t candidate = kNone;
+    std::uint32_t legs = 0;
+  };
+  std::vector<Straightest> straightest_;  ///< per vertex, of the paths that tie there
   std::vector<robust::Ball<robust::DoubleDouble>> distance_;
   std::unique_ptr<WindowImages> images_;  // while `resolve` runs
   std::unique_ptr<ExactUnfoldings> exact_;
