@@ -23,7 +23,7 @@ class InsertedPoints {
     for (VertexId v = mesh.input_vertex_count(); v < mesh.vertex_count(); ++v) {
       const ExactPoint exact = mesh.exact_point(v);
       Point rest;
-      for (std::size_t i = 0; i < 3; ++i) rest[i] = mpq_class(exact[i] - robust::exact_rational(mesh.point(v)[i])).get_d();
+      for (std::size_t i = 0; i < 3; ++i) rest[i] = rounded(exact[i] - robust::exact_rational(mesh.point(v)[i]));
       rest_.push_back(rest);
     }
   }
@@ -39,6 +39,11 @@ class InsertedPoints {
   }
 
  private:
+  /// To a relative 2u; not a number where that takes more than a double, below 2^-1022.
+  static double rounded(const mpq_class& x) {
+    const double d = x.get_d();
+    return sgn(x) == 0 || std::fabs(d) >= std::numeric_limits<double>::min() ? d : std::numeric_limits<double>::quiet_NaN();
+  }
   Point rest(VertexId v) const { return mesh_.is_representable(v) ? Point{0, 0, 0} : rest_[v - mesh_.input_vertex_count()]; }
   const Mesh& mesh_;
   std::vector<Point> rest_;

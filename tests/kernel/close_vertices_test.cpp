@@ -55,5 +55,19 @@ TEST(CloseVertices, CellsOfTwoSourcesInOneFacetHaveAnArea) {
   for (const Cell& cell : solution.diagram().cells) EXPECT_NEAR(cell.area, 0.5, 1e-12);
 }
 
+TEST(CloseVertices, WhatADoubleCannotSayOfAPositionIsNotLeftOut) {
+  // Beside a vertex of a tiny mesh positions have 24 bits, and what is left of them is below the least double. One source is 1e-4 of their last bit
+  // nearer, and would be 1.2 farther if both were rounded.
+  constexpr double k = 0x1p-900;
+  const Mesh mesh(test::MeshArrays{{{0, 0, 0}, {k, 0, 0}, {0, k, 0}, {-k, 0, 0}, {0, -k, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}});
+  const std::vector<Source> sources = {in_face(mesh, 0, {0x1p181, 2147609151, 0}, 0), in_face(mesh, 0, {0x1p181, 1518588994, 1518588994}, 0)};
+  SolveOptions options;
+  options.diagram = false;
+  const auto solution = solve(mesh, sources, options);
+  ASSERT_TRUE(test::is_certified(solution));
+  ASSERT_EQ(solution.nearest(0).size(), 1u);
+  EXPECT_EQ(solution.nearest(0)[0], 1u);
+}
+
 }  // namespace
 }  // namespace gvd::kernel
