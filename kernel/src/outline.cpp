@@ -154,8 +154,9 @@ bool OutlineWalk::complete(std::size_t side, std::uint32_t from, std::uint32_t l
       continue;
     }
     if (!events.empty() && events[0].filtered && events[0].filtered->existence == Existence::proved) {
-      const auto& t = events[0].filtered->t;  // between its bounds the ray's side is linear
-      if (filter_.cone_side(side, from, end, t.lower()).positive() && filter_.cone_side(side, from, end, t.upper()).positive()) {
+      const auto& t = events[0].filtered->t;  // between its bounds the ray's side is linear, and the event lies on the side, however wide they are
+      const double low = std::max(0.0, t.lower()), high = std::min(1.0, t.upper());
+      if (filter_.cone_side(side, from, end, low).positive() && filter_.cone_side(side, from, end, high).positive()) {
         ladder_.count(Predicate::edge_tie, robust::Stage::filter);
         continue;
       }

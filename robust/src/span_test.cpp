@@ -2,14 +2,42 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "root_basis.hpp"
 
 namespace gvd::robust {
 
-// The longest common subsequence of the radicands.
+namespace {
+
+using Ids = std::span<const std::uint32_t>;
+
+// The longest common subsequence; of lists for which that takes too much memory, none. Steps count from `start`.
+void align(Ids x, Ids y, std::size_t start, Alignment& result) {
+  constexpr std::size_t kMostEntries = std::size_t{1} << 26;  // a quarter of a gigabyte
+  const std::size_t m = x.size(), n = y.size();
+  const bool none = (m + 1) * (n + 1) > kMostEntries;
+  std::vector<std::uint32_t> length(none ? 0 : (m + 1) * (n + 1), 0);  // of the common subsequence of what follows i and j
+  const auto at = [&](std::size_t i, std::size_t j) -> std::uint32_t& { return length[i * (n + 1) + j]; };
+  for (std::size_t i = none ? 0 : m; i-- > 0;)
+    for (std::size_t j = n; j-- > 0;) at(i, j) = x[i] == y[j] ? at(i + 1, j + 1) + 1 : std::max(at(i + 1, j), at(i, j + 1));
+  result.common += none ? 0 : at(0, 0);
+  for (std::size_t i = 0, j = 0; i < m || j < n;) {
+    const auto side_by_side = [&] { return i * n <= j * m; };
+    const auto in_a_first = [&] { return none || at(i + 1, j) == at(i, j + 1) ? side_by_side() : at(i + 1, j) > at(i, j + 1); };
+    if (!none && i < m && j < n && x[i] == y[j])
+      result.steps.push_back({static_cast<int>(start + i++), static_cast<int>(start + j++)});
+    else if (j == n || (i < m && in_a_first()))
+      result.steps.push_back({static_cast<int>(start + i++), AlignedStep::kNone});
+    else
+      result.steps.push_back({AlignedStep::kNone, static_cast<int>(start + j++)});
+  }
+}
+
+}  // namespace
+
+// What the radicands have in common at both ends, and between.
 Alignment aligned(const RootProgram& a, const RootProgram& b) {
-  const std::size_t m = a.layers().size(), n = b.layers().size();
   std::map<mpz_class, std::uint32_t> ids;
   const auto ids_of = [&](const RootProgram& program) {
     std::vector<std::uint32_t> list;
@@ -17,20 +45,15 @@ Alignment aligned(const RootProgram& a, const RootProgram& b) {
     return list;
   };
   const std::vector<std::uint32_t> x = ids_of(a), y = ids_of(b);
-  std::vector<std::uint32_t> length((m + 1) * (n + 1), 0);  // of the common subsequence of what follows i and j
-  const auto at = [&](std::size_t i, std::size_t j) -> std::uint32_t& { return length[i * (n + 1) + j]; };
-  for (std::size_t i = m; i-- > 0;)
-    for (std::size_t j = n; j-- > 0;) at(i, j) = x[i] == y[j] ? at(i + 1, j + 1) + 1 : std::max(at(i + 1, j), at(i, j + 1));
+  const std::size_t shorter = std::min(x.size(), y.size());
+  std::size_t first = 0, last = 0;
+  while (first < shorter && x[first] == y[first]) ++first;
+  while (last < shorter - first && x[x.size() - 1 - last] == y[y.size() - 1 - last]) ++last;
   Alignment result;
-  result.common = at(0, 0);
-  for (std::size_t i = 0, j = 0; i < m || j < n;) {
-    if (i < m && j < n && x[i] == y[j])
-      result.steps.push_back({static_cast<int>(i++), static_cast<int>(j++)});
-    else if (j == n || (i < m && (at(i + 1, j) > at(i, j + 1) || (at(i + 1, j) == at(i, j + 1) && i * n <= j * m))))  // side by side
-      result.steps.push_back({static_cast<int>(i++), AlignedStep::kNone});
-    else
-      result.steps.push_back({AlignedStep::kNone, static_cast<int>(j++)});
-  }
+  result.common = first + last;
+  for (std::size_t i = 0; i < first; ++i) result.steps.push_back({static_cast<int>(i), static_cast<int>(i)});
+  align(Ids(x).subspan(first, x.size() - first - last), Ids(y).subspan(first, y.size() - first - last), first, result);
+  for (std::size_t i = last; i-- > 0;) result.steps.push_back({static_cast<int>(x.size() - 1 - i), static_cast<int>(y.size() - 1 - i)});
   return result;
 }
 
