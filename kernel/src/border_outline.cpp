@@ -7,8 +7,8 @@ namespace gvd::kernel {
 
 using predicates::Bounded;
 
-BorderOutline::BorderOutline(const FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter)
-    : waves_(waves), contenders_(contenders), filter_(filter), signs_(filter, contenders) {
+BorderOutline::BorderOutline(const FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter, FacetLadder& ladder)
+    : waves_(waves), contenders_(contenders), filter_(filter), signs_(filter, contenders), labels_(ladder.room()), crossings_(ladder.room()) {
   labels_.reserve(contenders.size());
   for (std::size_t i = 0; i < contenders.size(); ++i) labels_.push_back(waves.sites[contenders[i].site].labels);
 }
@@ -78,7 +78,7 @@ bool BorderOutline::keep_off(const Part& part, std::uint32_t other, double begin
 
 bool BorderOutline::is_farther(std::uint32_t guard, std::uint32_t other, double begin, double end) {
   signs_.look_from(side_, guard);
-  return filter_.lead(side_, guard, other, begin).positive() && signs_.keeps_sign(other, begin, end, 1);
+  return signs_.constant_sign(other, begin, end, 1) == robust::Sign::positive;
 }
 
 /// Looks for the one place where the label set changes: the tie of the waves that are nearest there, of either set.

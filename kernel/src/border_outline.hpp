@@ -20,12 +20,12 @@ class BorderOutline {
     Place at;
   };
 
-  BorderOutline(const FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter);
+  BorderOutline(const FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter, FacetLadder& ladder);
 
   /// False if it takes more than doubles.
   bool walk();
   /// Counter-clockwise from corner 0.
-  const std::vector<Crossing>& crossings() const { return crossings_; }
+  const std::pmr::vector<Crossing>& crossings() const { return crossings_; }
   /// A wave that attains corner c.
   std::uint32_t at_corner(std::size_t c) const { return at_corner_[c]; }
   LabelSetId labels(std::uint32_t wave) const { return labels_[wave]; }
@@ -61,9 +61,9 @@ class BorderOutline {
   const Contenders& contenders_;
   const FacetFilter& filter_;
   OvertakingFilter signs_;
-  std::vector<LabelSetId> labels_;  ///< per contender
+  std::pmr::vector<LabelSetId> labels_;  ///< per contender
   std::array<std::uint32_t, 3> at_corner_{kNoWave, kNoWave, kNoWave};
-  std::vector<Crossing> crossings_;
+  std::pmr::vector<Crossing> crossings_;
   std::size_t side_ = 0;
   std::uint32_t decisions_ = 0, parts_ = 0;
 };

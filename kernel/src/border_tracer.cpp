@@ -1,7 +1,7 @@
 #include "border_tracer.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace gvd::kernel {
@@ -14,7 +14,13 @@ namespace {
 
 constexpr double kFar = 0x1p100;
 
-predicates::DoublePoint middle(const FacetTessellation::Node& node) { return {node.x.mid(), node.y.mid()}; }
+using predicates::DoublePoint;
+
+DoublePoint middle(const FacetTessellation::Node& node) { return {node.x.mid(), node.y.mid()}; }
+double dot(const DoublePoint& a, const DoublePoint& b) { return a.x * b.x + a.y * b.y; }
+double cross(const DoublePoint& a, const DoublePoint& b) { return a.x * b.y - a.y * b.x; }
+/// As far as rounded numbers tell.
+bool is_left(const predicates::DoubleLine& line, const DoublePoint& p) { return cross(line.along, {p.x - line.from.x, p.y - line.from.y}) >= 0; }
 
 }  // namespace
 
@@ -27,10 +33,11 @@ std::optional<FacetTessellation> BorderTracer::run() {
   result_.arcs.reserve(kUsual);
   result_.outline.reserve(kUsual);
   starts_.reserve(2 * kUsual);
+  known_.reserve(kUsual);
+  thirds_.reserve(contenders_.size());
   add_outline();
-  std::vector<std::uint32_t> all(contenders_.size());
-  std::iota(all.begin(), all.end(), 0u);
-  vertices_.set_rivals(std::move(all));
+  all_.resize(contenders_.size());
+  std::iota(all_.begin(), all_.end(), 0u);
   for (std::size_t s = 0; s < starts_.size(); ++s)
     if (!starts_[s].followed && !follow(s)) return std::nullopt;
   result_.borders_only = true;
@@ -68,10 +75,14 @@ std::uint32_t BorderTracer::add_crossing(const BorderOutline::Crossing& crossing
   return id;
 }
 
-bool BorderTracer::is_known(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
-  for (const auto& [a, b, c] : known_)
-    if ((a == i && b == j && c == k) || (b == i && c == j && a == k) || (c == i && a == j && b == k)) return true;
-  return false;
+/// All waves but the two, and but those of which the vertex with them is known.
+void BorderTracer::find_thirds(const Start& arc) {
+  thirds_.clear();
+  for (std::uint32_t other = 0; other < contenders_.size(); ++other)
+    if (other != arc.left && other != arc.right) thirds_.push_back({other});
+  for (const auto& ring : known_)
+    for (std::size_t n = 0; n < 3; ++n)
+      if (ring[n] == arc.left && ring[(n + 1) % 3] == arc.right) std::erase_if(thirds_, [&](const Third& third) { return third.wave == ring[(n + 2) % 3]; });
 }
 
 /// Adds the arc that begins there, if the place where it ends is certain. False if not.
@@ -83,45 +94,64 @@ bool BorderTracer::follow(std::size_t start) {
     end = s;
   }
   const Start arc = starts_[start];
-  thirds_.clear();
-  for (std::uint32_t other = 0; other < contenders_.size(); ++other)
-    if (other != arc.left && other != arc.right && !is_known(arc.left, arc.right, other)) thirds_.push_back({0, other});
+  find_thirds(arc);
   if (!end) {
     auto vertex = first_vertex(arc);
     if (!vertex) return false;
     end = add_vertex(std::move(*vertex), arc.left, arc.right);
+  } else {
+    exclude_beside(arc, result_.nodes[starts_[*end].node]);
   }
-  if (starts_[*end].followed || !are_excluded(arc, result_.nodes[starts_[*end].node])) return false;
+  if (starts_[*end].followed || !are_excluded(arc)) return false;
   starts_[start].followed = starts_[*end].followed = true;
   result_.arcs.push_back({contenders_[arc.left].site, contenders_[arc.right].site, arc.node, starts_[*end].node, contenders_.tangent(arc.left, arc.right)});
   return true;
 }
 
-/// The first vertex found, in the order in which they seem to come. Who has none, or this one, need not be excluded any more.
-std::optional<BorderTracer::Found> BorderTracer::first_vertex(const Start& arc) {
-  choose_order(arc);
-  for (std::size_t n = 0; n < thirds_.size();) {
-    auto found = vertices_.find_in_doubles(arc.left, arc.right, thirds_[n].wave);
-    if (!found)
-      ++n;
-    else
-      thirds_.erase(thirds_.begin() + static_cast<std::ptrdiff_t>(n));
-    if (found && found->exists) return found;
+/// The first vertex found, in the order in which they seem to come. What takes no part in the piece up to there is not nearer in its end either.
+std::optional<BorderTracer::Vertex> BorderTracer::first_vertex(const Start& arc) {
+  look_ahead(arc);
+  const auto is_before = [](const Third& a, const Third& b) { return a.ahead < b.ahead; };
+  for (std::size_t asked = 0; asked < thirds_.size(); ++asked) {
+    Third& next = *std::min_element(thirds_.begin(), thirds_.end(), is_before);
+    next.ahead = std::numeric_limits<double>::infinity();
+    auto found = vertices_.find_in_doubles(arc.left, arc.right, next.wave, {});
+    if (!found) continue;
+    next.has_no_vertex = true;
+    if (!found->exists) continue;
+    exclude_beside(arc, found->node);
+    const std::optional<bool> beaten = is_beaten(*found);
+    if (beaten == false) return found;
+    next.has_no_vertex = beaten.has_value();
   }
   return std::nullopt;
 }
 
-/// Whether no other wave ends the arc before the end found.
-bool BorderTracer::are_excluded(const Start& arc, const Node& end) {
+std::optional<bool> BorderTracer::is_beaten(const Vertex& vertex) {
+  std::optional<bool> beaten = false;
+  for (const Third& third : thirds_) {
+    if (third.is_off || std::find(vertex.waves.begin(), vertex.waves.end(), third.wave) != vertex.waves.end()) continue;
+    const std::optional<bool> nearer = vertices_.is_beaten(vertex, third.wave);
+    if (nearer == true) return true;
+    if (!nearer) beaten = std::nullopt;
+  }
+  return beaten;
+}
+
+/// Finds out who takes no part in the piece of the arc up to a point.
+void BorderTracer::exclude_beside(const Start& arc, const Node& end) {
   const Node& start = result_.nodes[arc.node];
   const double radius = std::max(start.x.rad() + start.y.rad(), end.x.rad() + end.y.rad());
   const auto piece = BisectorPiece::between(filter_[arc.left].wave, filter_[arc.right].wave, middle(start), middle(end), radius);
+  for (Third& third : thirds_) third.is_off = piece && is_off(*piece, third.wave);
+}
+
+/// Whether no other wave ends the arc before the end found.
+bool BorderTracer::are_excluded(const Start& arc) {
   for (const Third& third : thirds_) {
-    if (piece && is_off(*piece, third.wave)) {
-      ladder_.count(Predicate::conflict, robust::Stage::filter);
-      continue;
-    }
-    const auto found = vertices_.find_in_doubles(arc.left, arc.right, third.wave);
+    if (third.is_off) ladder_.count(Predicate::conflict, robust::Stage::filter);
+    if (third.is_off || third.has_no_vertex) continue;
+    const auto found = vertices_.find_in_doubles(arc.left, arc.right, third.wave, all_);
     if (!found || found->exists) return false;
   }
   return true;
@@ -133,45 +163,41 @@ bool BorderTracer::is_off(const BisectorPiece& piece, std::uint32_t wave) const 
   return piece.is_nearer_than(other.wave) || (other.has_cone && (piece.is_right_of(other.ray[0]) || piece.is_right_of(other.ray[1])));
 }
 
-/// Along the tangent of the arc; only an order of asking.
-void BorderTracer::choose_order(const Start& arc) {
+/// How far ahead each wave seems to tie with the two, along the tangent of the arc; only an order of asking.
+void BorderTracer::look_ahead(const Start& arc) {
   const Point p = middle(result_.nodes[arc.node]);
-  const Point left = gradient(filter_[arc.left].wave, p), right = gradient(filter_[arc.right].wave, p);
-  const Point normal{left.x - right.x, left.y - right.y};
-  const double size = std::sqrt(normal.x * normal.x + normal.y * normal.y);
-  const Point along{-normal.y / size, normal.x / size};
-  for (Third& third : thirds_) third.ahead = tie_ahead(arc, third.wave, p, along);
-  std::sort(thirds_.begin(), thirds_.end(), [](const Third& a, const Third& b) { return a.ahead != b.ahead ? a.ahead < b.ahead : a.wave < b.wave; });
-}
-
-/// How far ahead a wave seems to tie with the two.
-double BorderTracer::tie_ahead(const Start& arc, std::uint32_t other, const Point& p, const Point& along) const {
-  for (const std::uint32_t own : {arc.left, arc.right}) {
-    if (contenders_.tangent_end(own, other) != Contenders::kNotTangent) return ray_ahead(own, contenders_.tangent_end(own, other), p, along);
-    if (contenders_.tangent_end(other, own) != Contenders::kNotTangent) return ray_ahead(other, contenders_.tangent_end(other, own), p, along);
+  const auto& left = filter_[arc.left].wave;
+  const Point of_left = gradient(left, p), of_right = gradient(filter_[arc.right].wave, p), along{of_right.y - of_left.y, of_left.x - of_right.x};
+  const double at_p = distance(left, p), rise = dot(of_left, along);
+  for (Third& third : thirds_) {
+    if (contenders_.related(arc.left, third.wave) || contenders_.related(arc.right, third.wave)) {
+      third.ahead = ray_ahead(arc, third.wave, p, along);
+      continue;
+    }
+    const auto& other = filter_[third.wave];
+    const double lead = distance(other.wave, p) - at_p, slope = dot(gradient(other.wave, p), along) - rise, ahead = -lead / slope;
+    const Point there{p.x + ahead * along.x, p.y + ahead * along.y};
+    const bool seen = !other.has_cone || (is_left(other.ray[0], there) && is_left(other.ray[1], there));
+    third.ahead = !(slope < 0) ? kFar : seen ? ahead : kFar + ahead;
   }
-  const auto &own = filter_[arc.left].wave, &wave = filter_[other].wave;
-  const Point u = gradient(wave, p), v = gradient(own, p);
-  const double lead = distance(wave, p) - distance(own, p), slope = (u.x - v.x) * along.x + (u.y - v.y) * along.y;
-  if (!(slope < 0)) return kFar;
-  const double ahead = -lead / slope;
-  const Point there{p.x + ahead * along.x, p.y + ahead * along.y};
-  for (std::size_t end = 0; filter_[other].has_cone && end < 2; ++end)
-    if (filter_.cone_side(other, end, there, 0).negative()) return kFar + ahead;
-  return ahead;
 }
 
-double BorderTracer::ray_ahead(std::uint32_t wave, int end, const Point& p, const Point& along) const {
-  const auto& ray = filter_[wave].ray[static_cast<std::size_t>(end)];
-  const double side = ray.along.x * (p.y - ray.from.y) - ray.along.y * (p.x - ray.from.x), slope = ray.along.x * along.y - ray.along.y * along.x;
-  const double ahead = -side / slope;
-  return ahead > 0 ? ahead : kFar;
+/// The same for one that ties with them on a boundary ray.
+double BorderTracer::ray_ahead(const Start& arc, std::uint32_t other, const Point& p, const Point& along) const {
+  for (const std::uint32_t own : {arc.left, arc.right}) {
+    const int leaves = contenders_.tangent_end(own, other), arrives = contenders_.tangent_end(other, own);
+    if (leaves == Contenders::kNotTangent && arrives == Contenders::kNotTangent) continue;
+    const auto& ray = leaves != Contenders::kNotTangent ? filter_[own].ray[static_cast<std::size_t>(leaves)] : filter_[other].ray[static_cast<std::size_t>(arrives)];
+    const double ahead = -cross(ray.along, {p.x - ray.from.x, p.y - ray.from.y}) / cross(ray.along, along);
+    return ahead > 0 ? ahead : kFar;
+  }
+  return kFar;
 }
 
 /// The border that leaves the new vertex against the one that arrives with `left` and `right`.
-std::size_t BorderTracer::add_vertex(Found&& vertex, std::uint32_t left, std::uint32_t right) {
-  const std::vector<std::uint32_t> ring = vertex.open;
-  known_.push_back({ring[0], ring[1], ring[2]});
+std::size_t BorderTracer::add_vertex(Vertex&& vertex, std::uint32_t left, std::uint32_t right) {
+  const auto& ring = vertex.waves;
+  known_.push_back(ring);
   const auto node = static_cast<std::uint32_t>(result_.nodes.size());
   result_.nodes.push_back(std::move(vertex.node));
   std::size_t back = 0;

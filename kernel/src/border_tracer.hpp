@@ -13,13 +13,21 @@ namespace gvd::kernel {
 class BorderTracer {
  public:
   BorderTracer(FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter, FacetLadder& ladder)
-      : contenders_(contenders), filter_(filter), ladder_(ladder), outline_(waves, contenders, filter), vertices_(waves, contenders, filter, ladder) {}
+      : contenders_(contenders),
+        filter_(filter),
+        ladder_(ladder),
+        outline_(waves, contenders, filter, ladder),
+        vertices_(waves, contenders, filter, ladder),
+        starts_(ladder.room()),
+        thirds_(ladder.room()),
+        all_(ladder.room()),
+        known_(ladder.room()) {}
 
   /// Empty if it takes more than doubles.
   std::optional<FacetTessellation> run();
 
  private:
-  using Found = BisectorVertices::Found;
+  using Vertex = BisectorVertices::InDoubles;
   using Node = FacetTessellation::Node;
   using Point = predicates::DoublePoint;
   /// A border that leaves a node with these waves on its left and right.
@@ -31,19 +39,22 @@ class BorderTracer {
   void add_outline();
   std::uint32_t add_crossing(const BorderOutline::Crossing& crossing);
   bool follow(std::size_t start);
-  std::optional<Found> first_vertex(const Start& start);
-  void choose_order(const Start& start);
-  double tie_ahead(const Start& start, std::uint32_t other, const Point& p, const Point& along) const;
-  double ray_ahead(std::uint32_t wave, int end, const Point& p, const Point& along) const;
-  bool are_excluded(const Start& start, const Node& end);
+  std::optional<Vertex> first_vertex(const Start& start);
+  void look_ahead(const Start& start);
+  double ray_ahead(const Start& start, std::uint32_t other, const Point& p, const Point& along) const;
+  void exclude_beside(const Start& start, const Node& end);
+  bool are_excluded(const Start& start);
+  std::optional<bool> is_beaten(const Vertex& vertex);
   bool is_off(const predicates::BisectorPiece& piece, std::uint32_t wave) const;
-  bool is_known(std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
-  std::size_t add_vertex(Found&& vertex, std::uint32_t left, std::uint32_t right);
+  void find_thirds(const Start& start);
+  std::size_t add_vertex(Vertex&& vertex, std::uint32_t left, std::uint32_t right);
 
   /// A wave that may end an arc, and how far ahead it seems to.
   struct Third {
-    double ahead;
     std::uint32_t wave;
+    double ahead = 0;
+    bool is_off = false;  ///< takes no part in the piece up to the end found last
+    bool has_no_vertex = false;
   };
 
   const Contenders& contenders_;
@@ -52,9 +63,10 @@ class BorderTracer {
   BorderOutline outline_;
   BisectorVertices vertices_;
   FacetTessellation result_;
-  std::vector<Start> starts_;
-  std::vector<Third> thirds_;  ///< those that are to be excluded yet as the end of the present arc
-  std::vector<std::array<std::uint32_t, 3>> known_;  ///< vertices: counter-clockwise
+  std::pmr::vector<Start> starts_;
+  std::pmr::vector<Third> thirds_;  ///< those of the present arc
+  std::pmr::vector<std::uint32_t> all_;
+  std::pmr::vector<std::array<std::uint32_t, 3>> known_;  ///< vertices: counter-clockwise
 };
 
 }  // namespace gvd::kernel

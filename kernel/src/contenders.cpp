@@ -23,8 +23,10 @@ robust::MaybeSign rays_apart(const FacetNumbers<NT>& numbers, const Contender& l
 
 }  // namespace
 
-Contenders::Contenders(FacetWaves& waves, FacetLadder& ladder) : waves_(waves) {
+Contenders::Contenders(FacetWaves& waves, FacetLadder& ladder)
+    : waves_(waves), list_(ladder.room()), representative_(ladder.room()), pairs_(ladder.room()), may_be_related_(ladder.room()) {
   list_.reserve(waves.sites.size());
+  representative_.reserve(waves.sites.size());
   for (std::uint32_t i = 0; i < waves.sites.size(); ++i) {
     const FacetSite& site = waves.sites[i];
     representative_.push_back(i);
@@ -107,6 +109,7 @@ bool Contenders::touching(FacetLadder& ladder, const Contender& left, const Cont
 void Contenders::find_pairs(const FacetLadder& ladder) {
   const auto n = static_cast<std::uint32_t>(list_.size());
   may_be_related_.clear();
+  may_be_related_.reserve(4 * list_.size());
   for (std::uint32_t i = 0; i < n; ++i)
     for (std::uint32_t j = 0; j < i; ++j)
       if (!predicates::certainly_unrelated(ladder.doubles()[list_[i].site], ladder.doubles()[list_[j].site]))

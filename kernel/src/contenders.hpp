@@ -79,7 +79,7 @@ class Contenders {
   bool runs_along(FacetLadder& ladder, std::size_t i, std::size_t end, std::size_t side) const;
   std::string name(std::size_t i) const;
   /// Per site the one that stands for it: itself, or the lowest of the windows with its image.
-  const std::vector<std::uint32_t>& representatives() const { return representative_; }
+  std::vector<std::uint32_t> representatives() const { return {representative_.begin(), representative_.end()}; }
   /// FacetWaves::where_they_part for the sites of contenders, each by one of the windows merged in it, over a side that all come over. Empty if there
   /// is none.
   std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> sites) const;
@@ -115,12 +115,12 @@ class Contenders {
   bool are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const;
 
   FacetWaves& waves_;
-  std::vector<Contender> list_;
+  std::pmr::vector<Contender> list_;
   mutable std::map<std::array<std::size_t, 3>, bool> mirrored_;  ///< asked for: i that comes in over the side, j, the side
   mutable std::map<std::array<std::size_t, 3>, bool> runs_along_;  ///< asked for: i, end of its cone, side
-  std::vector<std::uint32_t> representative_;
-  std::vector<Pair> pairs_;
-  std::vector<std::array<std::uint32_t, 2>> may_be_related_;  ///< ordered pairs that doubles do not exclude, in order
+  std::pmr::vector<std::uint32_t> representative_;
+  std::pmr::vector<Pair> pairs_;
+  std::pmr::vector<std::array<std::uint32_t, 2>> may_be_related_;  ///< ordered pairs that doubles do not exclude, in order
 };
 
 }  // namespace gvd::kernel

@@ -29,7 +29,7 @@ void cut(FacetFilter::Stretch& stretch, double at_0, double at_1, Low low, High 
 
 }  // namespace
 
-FacetFilter::FacetFilter(const Contenders& contenders, const FacetLadder& ladder) {
+FacetFilter::FacetFilter(const Contenders& contenders, FacetLadder& ladder) : waves_(ladder.room()) {
   const auto& numbers = ladder.filter();
   for (std::size_t k = 0; k < 3; ++k) {
     Side& side = sides_[k];

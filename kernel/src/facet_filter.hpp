@@ -40,7 +40,7 @@ class FacetFilter {
     Point at(double t) const { return {origin.x + t * direction.x, origin.y + t * direction.y}; }
   };
 
-  FacetFilter(const Contenders& contenders, const FacetLadder& ladder);
+  FacetFilter(const Contenders& contenders, FacetLadder& ladder);
 
   const Wave& operator[](std::size_t i) const { return waves_[i]; }
   const Side& side(std::size_t k) const { return sides_[k]; }
@@ -60,7 +60,7 @@ class FacetFilter {
   static void cut_stretches(const Ray& ray, const Contender& contender, Wave& wave);
   Ray make_ray(const FacetNumbers<FacetWaves::F>& numbers, const Contender& wave, std::size_t end) const;
 
-  std::vector<Wave> waves_;
+  std::pmr::vector<Wave> waves_;
   std::array<Side, 3> sides_;
 };
 

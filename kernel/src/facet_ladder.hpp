@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -26,9 +28,14 @@ class FacetLadder {
     for (const auto* site : filter_.sites) doubles_.push_back(predicates::double_wave(*site));
   }
 
+  FacetLadder(const FacetLadder&) = delete;
+  FacetLadder& operator=(const FacetLadder&) = delete;
+
+  /// Room for what is needed as long as the ladder: the lists of most facets fit, so they cost no allocation.
+  std::pmr::memory_resource* room() { return &room_; }
   const FacetNumbers<F>& filter() const { return filter_; }
   /// The sites in plain doubles.
-  const std::vector<predicates::DoubleWave>& doubles() const { return doubles_; }
+  const std::pmr::vector<predicates::DoubleWave>& doubles() const { return doubles_; }
   void count(predicates::Predicate p, robust::Stage stage, std::uint32_t times = 1) {
     decisions_.count(static_cast<std::size_t>(p), stage, times);
   }
@@ -98,10 +105,12 @@ class FacetLadder {
     return visit(numbers.exact, robust::Stage::algebra);
   }
 
+  std::array<std::byte, 1 << 14> first_room_;
+  std::pmr::monotonic_buffer_resource room_{first_room_.data(), first_room_.size()};
   FacetWaves& waves_;
   predicates::Decisions& decisions_;
   FacetNumbers<F> filter_;
-  std::vector<predicates::DoubleWave> doubles_;
+  std::pmr::vector<predicates::DoubleWave> doubles_{&room_};
   /// Hardly any facet needs them, and even empty ones cost allocations.
   struct BeyondFilter {
     FacetNumbers<DD> double_double;

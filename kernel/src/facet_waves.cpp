@@ -112,7 +112,7 @@ bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, 
   const VertexId root = field_.windows[window].root;
   if (root == corner[side] || root == corner[(side + 1) % 3]) return false;  // the edge itself is the shorter way to its points
   arrival.unfolded = unfolded_ == nullptr ? nullptr : unfolded_->find(window);
-  if (arrival.unfolded == nullptr) arrival.unfolded = &arrivals.unfolded.emplace_back(UnfoldedWindows<double>::alone(frames, field_, window));
+  if (arrival.unfolded == nullptr) arrival.unfolded = &arrivals.unfolded.emplace_front(UnfoldedWindows<double>::alone(frames, field_, window));
   if (arrival.unfolded->dead) return false;
   const EdgeFrame<double>& frame = frames(3 * face + side);
   const Ball<double> weight = narrowed(resolution_.distance(root));
@@ -213,9 +213,8 @@ predicates::Site<Ball<T>> FieldWaves::make_site(const FacetSite& site, const Unf
     return result;
   }
   result.has_cone = true;
-  result.image = to_first_side(predicates::balls(at.image), site.side, apex);
-  result.cone = {to_first_side(predicates::balls(at.cone0), site.side, apex),
-                 to_first_side(predicates::balls(at.cone1), site.side, apex)};
+  result.image = predicates::at_first_side(at.image, site.side, apex);
+  result.cone = {predicates::at_first_side(at.cone0, site.side, apex), predicates::at_first_side(at.cone1, site.side, apex)};
   return result;
 }
 

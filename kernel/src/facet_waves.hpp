@@ -1,6 +1,6 @@
 #pragma once
 
-#include <deque>
+#include <forward_list>
 #include <map>
 #include <memory>
 #include <span>
@@ -56,7 +56,7 @@ class FieldWaves final : public FacetWaves {
   /// While they are sorted out: room that the three sides share.
   struct Arrivals {
     std::vector<Arrival> all, kept;
-    std::deque<UnfoldedWindows<double>::Entry> unfolded;  ///< those that nobody knew
+    std::forward_list<UnfoldedWindows<double>::Entry> unfolded;  ///< those that nobody knew
   };
   void add_side(std::uint8_t side, Arrivals& arrivals);
   bool arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, Arrival& arrival) const;

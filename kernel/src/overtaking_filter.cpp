@@ -6,6 +6,8 @@
 namespace gvd::kernel {
 
 using predicates::Bounded;
+using robust::MaybeSign;
+using robust::Sign;
 
 /// A parent wins up to its boundary ray. Along the side over which it comes in, the cone begins at ray 0 and ends at ray 1; along the others
 /// the other way round.
@@ -44,7 +46,7 @@ bool OvertakingFilter::settle(std::uint32_t to) {
     return at && (!passed_ || at->low > passed_->at.high) && offer(to, *at, std::nullopt);
   }
   constexpr int kHalvings = 5;
-  return keeps_sign(to, begin, end, kHalvings);
+  return constant_sign(to, begin, end, kHalvings).has_value();
 }
 
 /// False if it takes more than doubles.
@@ -137,34 +139,40 @@ OvertakingFilter::Finding OvertakingFilter::ahead(std::uint32_t to) const {
   }
   const Finding finding = falling_zero(to);
   if (finding == Finding::unknown) {  // of one sign at both ends: most keep it
-    return keeps_sign(to, 0, 1, 0) ? Finding::none : Finding::unknown;
+    return constant_sign(to, 0, 1, 0) ? Finding::none : Finding::unknown;
   }
   if (finding == Finding::none || !passed_) return finding;
   if (filter_.lead(side_, from_, to, passed_->at.high).positive()) return Finding::one;
   return filter_.lead(side_, from_, to, passed_->at.low).negative() ? Finding::none : Finding::unknown;
 }
 
-/// Whether d_to - d_from has no zero in [begin, end]. Distances are convex: one is above its tangents, the other below its chord.
-bool OvertakingFilter::keeps_sign(std::uint32_t to, double begin, double end, int halvings) const {
+/// Distances are convex: one is above its tangents, the other below its chord.
+MaybeSign OvertakingFilter::constant_sign(std::uint32_t to, double begin, double end, int halvings) const {
   const auto &a = filter_[from_].wave, &b = filter_[to].wave;
   const auto& side = filter_.side(side_);
   const predicates::DoublePoint p = side.at(begin), q = side.at(end);
-  const double a0 = distance(a, p), a1 = distance(a, q), b0 = distance(b, p), b1 = distance(b, q);
-  const Bounded at_begin = predicates::difference(a, a0, b, b0), at_end = predicates::difference(a, a1, b, b1);
-  const double room = side.length * (end - begin) + 2 * side.error;
-  // Of the tangent's rise over the stretch, 16 u of its length are lost to rounding.
-  const double error = at_begin.error + at_end.error + 4 * side.error + 16 * predicates::kUnit * room;
-  const bool ahead = at_begin.value > error && at_end.value > error;
-  if (!ahead && !(at_begin.value < -error && at_end.value < -error)) return false;
-  const auto& convex = ahead ? b : a;  // the one whose tangents bound it
-  const auto rise = [&](const predicates::DoublePoint& at) {
-    const double x = at.x - convex.image.x, y = at.y - convex.image.y;
-    return (side.direction.x * x + side.direction.y * y) / std::sqrt(x * x + y * y) * (end - begin);
+  struct Along {
+    double at_begin, at_end, fall_before, rise_after;  ///< the distance, and what its tangents change over the stretch
   };
-  const double other0 = ahead ? a0 : b0, other1 = ahead ? a1 : b1, own0 = ahead ? b0 : a0, own1 = ahead ? b1 : a1;
-  if (own0 + rise(p) - other1 > error || own1 - rise(q) - other0 > error) return true;
+  const double length = end - begin;
+  const auto along = [&](const predicates::DoubleWave& wave) {
+    const double px = p.x - wave.image.x, py = p.y - wave.image.y, qx = q.x - wave.image.x, qy = q.y - wave.image.y;
+    const double rp = std::sqrt(px * px + py * py), rq = std::sqrt(qx * qx + qy * qy);
+    const double dx = side.direction.x * length, dy = side.direction.y * length;
+    return Along{wave.weight + rp, wave.weight + rq, (dx * qx + dy * qy) / rq, (dx * px + dy * py) / rp};
+  };
+  const Along of_a = along(a), of_b = along(b);
+  const Bounded at_begin = predicates::difference(a, of_a.at_begin, b, of_b.at_begin), at_end = predicates::difference(a, of_a.at_end, b, of_b.at_end);
+  // Of the tangent's rise over the stretch, 16 u of its length are lost to rounding.
+  const double error = at_begin.error + at_end.error + 4 * side.error + 16 * predicates::kUnit * (side.length * length + 2 * side.error);
+  const bool ahead = at_begin.value > error && at_end.value > error;
+  if (!ahead && !(at_begin.value < -error && at_end.value < -error)) return std::nullopt;
+  const Along &convex = ahead ? of_b : of_a, &other = ahead ? of_a : of_b;
+  const Sign sign = ahead ? Sign::positive : Sign::negative;
+  if (convex.at_begin + convex.rise_after - other.at_end > error || convex.at_end - convex.fall_before - other.at_begin > error) return sign;
   const double middle = 0.5 * (begin + end);
-  return halvings > 0 && keeps_sign(to, begin, middle, halvings - 1) && keeps_sign(to, middle, end, halvings - 1);
+  if (halvings == 0 || constant_sign(to, begin, middle, halvings - 1) != sign || constant_sign(to, middle, end, halvings - 1) != sign) return std::nullopt;
+  return sign;
 }
 
 /// Encloses the falling zero between two signs, by Newton's iteration kept inside. Pre: one such zero lies in (begin, end).

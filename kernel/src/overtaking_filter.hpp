@@ -44,8 +44,8 @@ class OvertakingFilter {
 
   /// Chooses what the following two ask about: the side, and the wave that may be overtaken.
   void look_from(std::size_t side, std::uint32_t from) { side_ = side, from_ = from; }
-  /// Whether d_to - d_from certainly has no zero in [begin, end].
-  bool keeps_sign(std::uint32_t to, double begin, double end, int halvings) const;
+  /// The sign of d_to - d_from if it certainly has no zero in [begin, end].
+  robust::MaybeSign constant_sign(std::uint32_t to, double begin, double end, int halvings) const;
   /// Encloses the zero where d_to - d_from falls. Pre: it is positive at `begin` and negative at `end`.
   std::optional<Place> locate(std::uint32_t to, double begin, double end) const;
 

@@ -18,7 +18,7 @@ double cross(const DoublePoint& a, const DoublePoint& b) { return a.x * b.y - a.
 }  // namespace
 
 VertexFilter::Judgement VertexFilter::judge(const std::array<std::uint32_t, 3>& waves, const std::optional<OnRay>& on_ray,
-                                            const std::vector<std::uint32_t>& rivals) const {
+                                            std::span<const std::uint32_t> rivals) const {
   Judgement result;
   const Found found = on_ray ? locate_on_ray(*on_ray) : locate(waves);
   if (found.exists == Answer::unknown) return result;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "facet_filter.hpp"
@@ -16,6 +17,7 @@ class VertexFilter {
 
   VertexFilter(const FacetFilter& filter, const Contenders& contenders) : filter_(filter), contenders_(contenders) {}
 
+  enum class Answer { no, yes, unknown };
   /// Certainly within `radius` of `p`.
   struct Location {
     Point p{0, 0};
@@ -33,10 +35,11 @@ class VertexFilter {
   };
   /// The vertex with the regions of the three counter-clockwise round it: whether it exists, lies strictly inside the facet and the three cones, and
   /// no rival is nearer or ties.
-  Judgement judge(const std::array<std::uint32_t, 3>& waves, const std::optional<OnRay>& on_ray, const std::vector<std::uint32_t>& rivals) const;
+  Judgement judge(const std::array<std::uint32_t, 3>& waves, const std::optional<OnRay>& on_ray, std::span<const std::uint32_t> rivals) const;
+  /// Whether a rival of three waves that tie at a point sees it and is nearer there.
+  Answer nearer(const std::array<std::uint32_t, 3>& waves, std::uint32_t rival, const Location& at) const;
 
  private:
-  enum class Answer { no, yes, unknown };
   struct Found {
     Answer exists = Answer::unknown;
     Location at{};
@@ -52,7 +55,6 @@ class VertexFilter {
   Answer inside_side(std::size_t k, const Location& at) const;
   Answer inside_ray(std::uint32_t wave, std::size_t end, const Location& at) const;
   Answer sees(std::uint32_t wave, const Location& at) const;
-  Answer nearer(const std::array<std::uint32_t, 3>& waves, std::uint32_t rival, const Location& at) const;
 
   const FacetFilter& filter_;
   const Contenders& contenders_;

@@ -15,8 +15,8 @@ using robust::MaybeSign;
 using robust::Sign;
 using robust::Stage;
 
-void BisectorVertices::set_rivals(std::vector<std::uint32_t> rivals) {
-  rivals_ = std::move(rivals);
+void BisectorVertices::set_rivals(std::span<const std::uint32_t> rivals) {
+  rivals_.assign(rivals.begin(), rivals.end());
   remembered_.clear();
 }
 
@@ -52,11 +52,18 @@ BisectorVertices::Found* BisectorVertices::find(std::uint32_t i, std::uint32_t j
   return ladder_.failed() ? nullptr : found_[static_cast<std::size_t>(entry - 1)].get();
 }
 
-std::optional<BisectorVertices::Found> BisectorVertices::find_in_doubles(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-  Found found;
+std::optional<BisectorVertices::InDoubles> BisectorVertices::find_in_doubles(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::span<const std::uint32_t> rivals) {
+  InDoubles found;
   const auto spec = triple(i, j, k);
-  if (spec && !examine_in_doubles(*spec, found)) return std::nullopt;
+  if (spec && !examine_in_doubles(*spec, rivals, found)) return std::nullopt;
   return found;
+}
+
+std::optional<bool> BisectorVertices::is_beaten(const InDoubles& vertex, std::uint32_t rival) {
+  const VertexFilter::Answer nearer = filter_.nearer(vertex.waves, rival, {{vertex.node.x.mid(), vertex.node.y.mid()}, vertex.node.x.rad()});
+  if (nearer == VertexFilter::Answer::unknown) return std::nullopt;
+  ladder_.count(Predicate::conflict, Stage::filter);
+  return nearer == VertexFilter::Answer::yes;
 }
 
 /// Empty if identity excludes a vertex. The boundary ray of a parent through its cone vertex 0 has the relay on its left, through 1
@@ -219,10 +226,10 @@ bool BisectorVertices::settle_where_they_part(const Triple& t) {
 }
 
 /// False if doubles cannot tell.
-bool BisectorVertices::examine_in_doubles(const Triple& t, Found& found) {
+bool BisectorVertices::examine_in_doubles(const Triple& t, std::span<const std::uint32_t> rivals, InDoubles& found) {
   std::optional<VertexFilter::OnRay> on_ray;
   if (t.on_ray) on_ray = {t.parent, t.pivot, t.other, t.ray_end};
-  const VertexFilter::Judgement judged = filter_.judge(t.waves, on_ray, rivals_);
+  const VertexFilter::Judgement judged = filter_.judge(t.waves, on_ray, rivals);
   if (!judged.certain) return false;
   ladder_.count(Predicate::bisector_vertex, Stage::filter);
   ladder_.count(Predicate::location, Stage::filter, judged.sides);
@@ -231,7 +238,7 @@ bool BisectorVertices::examine_in_doubles(const Triple& t, Found& found) {
   if (!judged.exists) return true;
   found.exists = true;
   found.node = node_of(t);
-  found.open = {t.waves[0], t.waves[1], t.waves[2]};
+  found.waves = t.waves;
   found.node.sites = {contenders_[t.waves[0]].site, contenders_[t.waves[1]].site, contenders_[t.waves[2]].site};
   found.node.x = FacetWaves::F(judged.at.p.x, judged.at.radius);
   found.node.y = FacetWaves::F(judged.at.p.y, judged.at.radius);
@@ -239,7 +246,12 @@ bool BisectorVertices::examine_in_doubles(const Triple& t, Found& found) {
 }
 
 void BisectorVertices::examine(const Triple& t, Found& found) {
-  if (examine_in_doubles(t, found)) return;
+  if (InDoubles known; examine_in_doubles(t, rivals_, known)) {
+    found.exists = known.exists;
+    found.node = std::move(known.node);
+    if (known.exists) found.open.assign(known.waves.begin(), known.waves.end());
+    return;
+  }
   pending_.clear();
   ties_.clear();
   on_boundary_ray_ = false;

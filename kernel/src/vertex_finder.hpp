@@ -30,16 +30,23 @@ class BisectorVertices {
   };
 
   BisectorVertices(FacetWaves& waves, const Contenders& contenders, const FacetFilter& filter, FacetLadder& ladder)
-      : waves_(waves), contenders_(contenders), filter_(filter, contenders), ladder_(ladder) {}
+      : waves_(waves), contenders_(contenders), filter_(filter, contenders), ladder_(ladder), rivals_(ladder.room()) {}
 
   /// Only these contenders can conflict: the others own no area of the facet. To be called first.
-  void set_rivals(std::vector<std::uint32_t> rivals);
+  void set_rivals(std::span<const std::uint32_t> rivals);
 
   /// The vertex with the regions of i, j, k counter-clockwise round it, perhaps with others in between. Remembered, and one for all triples that
   /// meet in one point. Null on failure. Pre: i, j, k are different rivals.
   Found* find(std::uint32_t i, std::uint32_t j, std::uint32_t k);
-  /// The same without memory, by doubles alone; empty if they cannot tell.
-  std::optional<Found> find_in_doubles(std::uint32_t i, std::uint32_t j, std::uint32_t k);
+  /// The same without memory and with other rivals, by doubles alone; empty if they cannot tell.
+  struct InDoubles {
+    bool exists = false;
+    std::array<std::uint32_t, 3> waves{};  ///< counter-clockwise
+    FacetTessellation::Node node;
+  };
+  std::optional<InDoubles> find_in_doubles(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::span<const std::uint32_t> rivals);
+  /// Whether a rival sees that point and is nearer.
+  std::optional<bool> is_beaten(const InDoubles& vertex, std::uint32_t rival);
 
  private:
   /// How to construct the vertex: the three waves in counter-clockwise order, the pivot in the middle; or, if two of them are tangent,
@@ -56,7 +63,7 @@ class BisectorVertices {
 
   std::optional<Triple> triple(std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
   void examine(const Triple& triple, Found& found);
-  bool examine_in_doubles(const Triple& triple, Found& found);
+  bool examine_in_doubles(const Triple& triple, std::span<const std::uint32_t> rivals, InDoubles& found);
   template <class NT>
   predicates::BisectorVertex<NT> construct(const FacetNumbers<NT>& numbers, const Triple& triple) const;
   template <class NT>
@@ -79,7 +86,7 @@ class BisectorVertices {
   const Contenders& contenders_;
   VertexFilter filter_;
   FacetLadder& ladder_;
-  std::vector<std::uint32_t> rivals_;
+  std::pmr::vector<std::uint32_t> rivals_;
   std::vector<std::uint32_t> rank_;       ///< of a contender among the rivals
   std::vector<std::int32_t> remembered_;  ///< per ordered triple of rivals: 0 unknown, else 1 + index in found_
   std::vector<std::unique_ptr<Found>> found_;  ///< pointers to them are handed out

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "gvd/kernel/frames.hpp"
 #include "gvd/kernel/source.hpp"
 #include "gvd/kernel/surface_point.hpp"
 #include "gvd/kernel/unfolding.hpp"
+#include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/predicates/longer.hpp"
@@ -307,6 +309,27 @@ mpq_class exact_landing(const mpq_class& ix, const mpq_class& iy, const mpq_clas
 }
 
 // Both points pushed to the rims of their discs, in rational directions on the unit circle.
+TEST(UnfoldingBounds, DiscsSeenFromTheFirstSideContainTheTruth) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int round = 0; round < 20000; ++round) {
+    const auto number = [&] { return std::ldexp(unit(random), static_cast<int>(random() % 24) - 12); };
+    const auto error = [&] { return round % 2 == 0 ? 0.0 : std::ldexp(std::fabs(unit(random)), -static_cast<int>(random() % 40) - 10); };
+    const Disc<double> z{{number(), number()}, error()};
+    const double of_apex = error();
+    const predicates::PlanePoint<robust::Ball<double>> w{{number(), of_apex}, {number(), of_apex}};
+    const double turn = 3.2 * unit(random), x = std::cos(turn), y = std::sin(turn);  // a point near the rim of either
+    const Mpfr zx = wide(z.mid.x) + wide(0.999 * z.radius * x), zy = wide(z.mid.y) + wide(0.999 * z.radius * y);
+    const Mpfr wx = wide(w.x.mid()) + wide(0.999 * of_apex * y), wy = wide(w.y.mid()) - wide(0.999 * of_apex * x), one = wide(1.0);
+    for (const unsigned k : {0u, 1u, 2u}) {
+      const auto at = predicates::at_first_side(z, k, w);
+      const Mpfr true_x = k == 0 ? zx : k == 1 ? one + zx * (wx - one) - zy * wy : (one - zx) * wx + zy * wy;
+      const Mpfr true_y = k == 0 ? zy : k == 1 ? zx * wy + zy * (wx - one) : (one - zx) * wy - zy * wx;
+      ASSERT_LE(hypot(true_x - wide(at.x.mid()), true_y - wide(at.y.mid())), at.x.rad()) << "round " << round << ", side " << k;
+    }
+  }
+}
+
 TEST(LandingBounds, MarginCoversEveryPairOfPoints) {
   Random random(7);
   double tightest = 1e300;

@@ -30,6 +30,7 @@ void load_numbers(FacetWaves& waves, int bits, FacetNumbers<NT>& numbers) {
     numbers.frame = &waves.frame(NT());
   numbers.sites.clear();
   if (numbers.frame == nullptr) return;
+  numbers.sites.reserve(waves.sites.size());
   for (std::size_t i = 0; i < waves.sites.size(); ++i) {
     if constexpr (kExact)
       numbers.sites.push_back(waves.exact_site(i));

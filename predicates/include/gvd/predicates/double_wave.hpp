@@ -54,9 +54,10 @@ inline Bounded lag_at_image(const DoubleWave& a, const DoubleWave& b) noexcept {
 
 /// Whether the images are certainly not as far apart as the weights: then the two never come along one line.
 inline bool certainly_unrelated(const DoubleWave& a, const DoubleWave& b) noexcept {
-  const double dx = a.image.x - b.image.x, dy = a.image.y - b.image.y, later = std::fabs(a.weight - b.weight);
-  const double apart = std::sqrt(dx * dx + dy * dy);
-  return std::fabs(apart - later) > (a.error + b.error + kDoubleWaveError * (apart + later)) * (1 + 0x1p-48) + 0x1p-499;
+  const double dx = a.image.x - b.image.x, dy = a.image.y - b.image.y, later = a.weight - b.weight;
+  const double sum = std::fabs(dx) + std::fabs(dy) + std::fabs(later);  // at least that of the two distances
+  const double error = (a.error + b.error + kDoubleWaveError * sum) * sum * (1 + 0x1p-48) + 0x1p-998;
+  return std::fabs(dx * dx + dy * dy - later * later) > error;
 }
 
 /// Whether a is nearer than b everywhere, by the triangle inequality: it is at the image of b.

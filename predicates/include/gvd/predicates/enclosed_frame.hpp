@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "gvd/predicates/plane.hpp"
 #include "gvd/predicates/strip.hpp"
 
@@ -40,6 +42,25 @@ PlanePoint<NT> to_first_side(const PlanePoint<NT>& z, unsigned k, const PlanePoi
   }
   const NT x = one - z.x;  // w (1 - z)
   return {x * w.x + z.y * w.y, x * w.y - z.y * w.x};
+}
+
+/// The same for a disc.
+template <class T>
+PlanePoint<robust::Ball<T>> at_first_side(const Disc<T>& z, unsigned k, const PlanePoint<robust::Ball<T>>& w) {
+  return to_first_side(balls(z), k, w);
+}
+/// In doubles, in one go: docs/error-bounds.md#unfolding.
+template <>
+inline PlanePoint<robust::Ball<double>> at_first_side(const Disc<double>& z, unsigned k, const PlanePoint<robust::Ball<double>>& w) {
+  if (k == 0) return balls(z);
+  const bool first = k == 1;
+  const double ax = first ? z.mid.x : 1 - z.mid.x, ay = first ? z.mid.y : -z.mid.y;
+  const double bx = first ? w.x.mid() - 1 : w.x.mid(), by = w.y.mid();
+  const double x = (first ? 1 : 0) + (ax * bx - ay * by), y = ax * by + ay * bx;
+  const double size_a = std::fabs(ax) + std::fabs(ay), size_b = std::fabs(bx) + std::fabs(by);
+  const double of_apex = w.x.rad() + w.y.rad() + 6 * unit<double>(0) * size_b;
+  const double radius = ((size_a + z.radius) * of_apex + size_b * z.radius + 2 * unit<double>(0) * std::fabs(x)) * (1 + 0x1p-40) + 0x1p-1000;
+  return {robust::Ball<double>(x, radius), robust::Ball<double>(y, radius)};
 }
 
 }  // namespace gvd::predicates
