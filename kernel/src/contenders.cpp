@@ -350,4 +350,13 @@ bool Contenders::are_mirror_images(const Contender& entering, const Contender& o
   return false;
 }
 
+int Contenders::mirrored_tangent_end(std::size_t parent, std::size_t relay, std::size_t side) const {
+  const Contender& wave = list_[parent];
+  for (std::size_t end = 0; wave.has_cone && end < 2; ++end)
+    for (std::size_t o = 0; o < waves_.sites.size(); ++o)
+      if (representative_[o] == list_[relay].site && waves_.is_mirrored_at_cone_vertex(wave.cone_site[end], end, o, static_cast<std::uint8_t>(side)))
+        return static_cast<int>(end);
+  return kNotTangent;
+}
+
 }  // namespace gvd::kernel

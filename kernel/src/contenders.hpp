@@ -69,6 +69,8 @@ class Contenders {
   /// Whether the two tie along a side because their images are mirror images in it: positive if i comes in over that side, negative if j does, zero
   /// if nothing of the kind is proved.
   robust::Sign mirrored(std::size_t i, std::size_t j, std::size_t side) const;
+  /// As tangent_end, for the mirror image of the relay in a side: which may be no contender.
+  int mirrored_tangent_end(std::size_t parent, std::size_t relay, std::size_t side) const;
   /// Whether boundary ray `end` of i is, by identity, on one line with ray `site_end` of a site: it is that ray, or both go through one relay, or
   /// one unfolded vertex, and one of the two waves eclipses the other.
   bool is_on_ray(std::size_t i, std::size_t end, std::uint32_t site, std::size_t site_end) const;

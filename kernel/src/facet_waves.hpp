@@ -39,6 +39,7 @@ class FieldWaves final : public FacetWaves {
   bool is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) override;
   bool are_proved_one_wave(std::size_t a, std::size_t b) override;
   bool are_mirror_images(std::size_t entering, std::size_t other) override;
+  bool is_mirrored_at_cone_vertex(std::size_t parent, std::size_t end, std::size_t other, std::uint8_t side) override;
   /// Windows in double-double that are known already; it may lack any. Null: none.
   void use(const UnfoldedWindows<robust::DoubleDouble>* unfolded) { double_double_ = unfolded; }
   /// Gives back what only the MPFR stage needs.
@@ -71,6 +72,7 @@ class FieldWaves final : public FacetWaves {
   bool have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   std::uint8_t side_entered(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const;
+  bool show_mirror_images(std::uint8_t side, std::span<const HalfedgeId> entering, std::span<const HalfedgeId> other) const;
   WindowId last_turn(WindowId strip, VertexId v) const;
   std::optional<Sides> sides_since(WindowId strip, VertexId v) const;
   bool goes_on_as(WindowId strip, WindowId since, WindowId other) const;

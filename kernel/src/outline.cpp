@@ -198,6 +198,8 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   const auto [a, b] = twins_that_touch(side, from, to);
   if (!contenders_.tangent(a, b)) {
     if (contenders_.eclipses(a, b) || contenders_.eclipses(b, a)) return std::nullopt;
+    if (may_touch(side, from, to))
+      if (auto touch = mirrored_touch(side, from, to); touch.is_known) return touch.event;
     if (const auto event = contact(side, from, to); event || ladder_.failed()) return event;
     const Event event{from, to, FacetTessellation::kNoSite, 0, false, false, std::nullopt};
     if (tie_is_at_corner(side, event)) return std::nullopt;
@@ -229,6 +231,20 @@ bool OutlineWalk::may_touch(std::size_t side, std::uint32_t from, std::uint32_t 
   const auto& numbers = ladder_.filter();
   return contenders_.mirrored(from, to, side) == Sign::zero &&
          !maybe_sign(predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root));
+}
+
+/// A wave against the mirror image of a relay at the vertex of its cone, which is as far as the relay all along the side: they touch on the boundary ray.
+OutlineWalk::MirroredTouch OutlineWalk::mirrored_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const {
+  for (const bool relay_takes_over : {true, false}) {
+    const std::uint32_t parent = relay_takes_over ? from : to;
+    const int end = contenders_.mirrored_tangent_end(parent, relay_takes_over ? to : from, side);
+    if (end == Contenders::kNotTangent) continue;
+    const bool last_ray = end == (contenders_[parent].enters_over(side) ? 1 : 0);
+    if (last_ray != relay_takes_over) return {true, {}};
+    const auto ray = static_cast<std::size_t>(end);
+    return {true, Event{from, to, contenders_[parent].cone_site[ray], static_cast<std::uint8_t>(end), false, false, std::nullopt}};
+  }
+  return {};
 }
 
 /// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it

@@ -57,6 +57,11 @@ class OutlineWalk {
   std::array<std::uint32_t, 2> twins_that_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const;
   bool ray_is_through_corner(std::size_t side, const Event& event) const;
   bool may_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const;
+  struct MirroredTouch {
+    bool is_known = false;
+    std::optional<Event> event{};
+  };
+  MirroredTouch mirrored_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const;
   std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to);
   bool tie_is_at_corner(std::size_t side, const Event& event);
   bool ties_at_corners(const Event& event) const;

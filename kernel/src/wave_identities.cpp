@@ -165,15 +165,29 @@ bool FieldWaves::show_one_image(std::span<const HalfedgeId> a, std::span<const H
          are_proved_equal(of_a.value({0, 0, one_side ? 1 : -1, 0}), of_b.value({0, 0, 1, 0}));
 }
 
-/// Their mirror image in the side entered: conj(1 - z) as seen from behind it.
 bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
   const FacetSite &a = sites[entering], &b = sites[other];
-  const std::uint8_t side = a.side;
-  if (a.window == kNone || (b.window == kNone ? b.corner != (side + 2) % 3 : b.side == side)) return false;
+  if (a.window == kNone || (b.window == kNone ? b.corner != (a.side + 2) % 3 : b.side == a.side)) return false;
   if (!resolution_.have_equal_distances(a.root, b.root)) return false;
-  const predicates::StripProgram of_a = way_program(resolution_.frames(), sides_of(strip(entering)));
-  const predicates::StripProgram of_b = b.window == kNone ? predicates::StripProgram(*resolution_.frames().for_program(face), side)
-                                                          : program_beyond(side, sides_of(strip(other)));
+  return show_mirror_images(a.side, sides_of(strip(entering)), b.window == kNone ? Sides() : sides_of(strip(other)));
+}
+
+bool FieldWaves::is_mirrored_at_cone_vertex(std::size_t parent, std::size_t end, std::size_t other, std::uint8_t side) {
+  const FacetSite &a = sites[parent], &b = sites[other];
+  const VertexId v = a.cone[end];
+  if (a.window == kNone || b.window == kNone || v == kNone || !a.attains_cone[end] || (a.side == side) == (b.side == side)) return false;
+  const auto since = sides_since(a.window, v);
+  if (!since || since->empty() || !resolution_.have_equal_distances(v, b.root)) return false;
+  const Sides own = sides_of(strip(other));
+  return a.side == side ? show_mirror_images(side, *since, own) : show_mirror_images(side, own, *since);
+}
+
+/// Of two ways, of which the first comes over a side and the other does not, or is none: the corner opposite. The mirror image of z is conj(1 - z) as seen
+/// from behind the side.
+bool FieldWaves::show_mirror_images(std::uint8_t side, std::span<const HalfedgeId> entering, std::span<const HalfedgeId> other) const {
+  const predicates::StripProgram of_a = way_program(resolution_.frames(), entering);
+  const predicates::StripProgram of_b =
+      other.empty() ? predicates::StripProgram(*resolution_.frames().for_program(face), side) : program_beyond(side, other);
   return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
          are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
 }

@@ -90,6 +90,13 @@ class FacetWaves {
     return false;
   }
 
+  /// Whether another wave, mirrored in a side, would be that of a relay at the vertex that bounds end `end` of the cone of window `parent`: the parent attains
+  /// that vertex, the root of `other` is as far, and the images are mirrored. True is a proof, false says nothing.
+  virtual bool is_mirrored_at_cone_vertex(std::size_t parent, std::size_t end, std::size_t other, std::uint8_t side) {
+    static_cast<void>(parent), static_cast<void>(end), static_cast<void>(other), static_cast<void>(side);
+    return false;
+  }
+
   /// Whether two rays bound cones of windows in one and the same unfolded vertex, by identity: from that vertex on the strips cross the same sides.
   virtual bool share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) {
     static_cast<void>(a), static_cast<void>(end_a), static_cast<void>(b), static_cast<void>(end_b);
