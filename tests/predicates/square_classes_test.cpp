@@ -261,6 +261,29 @@ TEST(SquareClasses, ImagesThroughManyClassesTieAlongAnEdge) {
   }
 }
 
+// Mirror images in the middle of an edge are as far off it, but not over the same place.
+TEST(SquareClasses, ImagesMirroredInTheMiddleOfAnEdgeTieThereOnly) {
+  Random random(40);
+  const std::array<SpacePoint, 2> edge{SpacePoint{0, 0, 0}, SpacePoint{0, 8, 0}};
+  int too_many_classes = 0;
+  for (int round = 0; round < 12; ++round) {
+    const SpaceStrip strip = strip_at_edge(8, random);
+    SpaceStrip turned = strip.stretched({1, -1, 1});
+    for (auto& face : turned.faces)
+      for (SpacePoint& p : face) p[1] += 8;
+    const Window a{strip.described(), {}, std::nullopt}, b{turned.described(), {}, std::nullopt};
+    const auto by_algebra = ties_on_edge_at({Stage::algebra}, a, b, edge);
+    too_many_classes += !by_algebra;
+    ASSERT_EQ(by_algebra ? by_algebra->kind : EdgeTies::Kind::points, EdgeTies::Kind::points) << round;
+    const EdgeTies ties = ties_on_edge(a, b, edge);
+    ASSERT_EQ(ties.kind, EdgeTies::Kind::points) << round;
+    ASSERT_EQ(ties.ties.size(), 1u) << round;
+    ASSERT_LE(ties.ties[0].t.lower, 0.5) << round;
+    ASSERT_GE(ties.ties[0].t.upper, 0.5) << round;
+  }
+  EXPECT_GT(too_many_classes, 3);
+}
+
 // Each starts later by the other's way to the first end of the edge: so they tie there.
 TEST(SquareClasses, WeightsOfSeveralClassesTieAtAVertex) {
   Random random(36);

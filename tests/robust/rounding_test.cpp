@@ -92,11 +92,12 @@ TEST(Rounding, SubnormalsAndOverflow) {
 
 // A midpoint that no enclosure shows to be one: the roots cancel.
 TEST(Rounding, TiesOfNestedRootsGoToTheEvenDouble) {
-  const Exact two = sqrt(Exact(2.0)), one = sqrt(Exact(3.0) + two.scaled(1)) - two;
-  const Exact half_ulp(0x1p-53);
-  EXPECT_EQ(rounded(one + half_ulp), 1.0);
-  EXPECT_EQ(rounded(one + half_ulp * Exact(3.0)), 1 + 0x1p-51);
-  EXPECT_EQ(rounded(-one - half_ulp), -1.0);
+  const Exact two = sqrt(Exact(2.0)), nested = sqrt(Exact(1.0) + two), half_ulp(0x1p-53);
+  for (const Exact& one : {sqrt(Exact(3.0) + two.scaled(1)) - two, (nested + Exact(2.0)) * (nested - Exact(2.0)) - two + Exact(4.0)}) {
+    EXPECT_EQ(rounded(one + half_ulp), 1.0);
+    EXPECT_EQ(rounded(one + half_ulp * Exact(3.0)), 1 + 0x1p-51);
+    EXPECT_EQ(rounded(-one - half_ulp), -1.0);
+  }
 }
 
 }  // namespace

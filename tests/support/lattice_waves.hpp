@@ -56,17 +56,17 @@ class LatticeWaves final : public kernel::FacetWaves {
     sites[parent].attains_cone[end] = true;
     return i;
   }
-  /// Finds out which waves attain the corners. To be called when all are there.
+  /// Finds out which waves attain the corners. To be called when all are there. An image turned by 2^-300 may be farther by 2^-600 only: that is seen.
   void finish() {
     for (std::size_t k = 0; k < 3; ++k) {
       const LatticePoint at = k == 0 ? LatticePoint{0, 0} : k == 1 ? LatticePoint{length_, 0} : apex_;
-      std::vector<std::optional<Real>> d;
-      std::optional<Real> least;
+      std::vector<std::optional<Long>> d;
+      std::optional<Long> least;
       for (const LatticeWave& wave : waves_) {
         d.push_back(sees(wave, at) ? std::optional(distance(wave, at)) : std::nullopt);
         if (d.back() && (!least || *d.back() < *least)) least = d.back();
       }
-      for (std::size_t i = 0; i < waves_.size(); ++i) sites[i].attains_corner[k] = d[i] && sign_of(*d[i] - *least, *least) == robust::Sign::zero;
+      for (std::size_t i = 0; i < waves_.size(); ++i) sites[i].attains_corner[k] = d[i] && *d[i] - *least <= ldexp(*least, -1000);
     }
   }
 
@@ -94,10 +94,13 @@ class LatticeWaves final : public kernel::FacetWaves {
 
   const std::vector<LatticeWave>& waves() const { return waves_; }
   std::array<Real, 2> flat(const LatticePoint& p) const { return {real(p.x), real(p.y) * sqrt(Real(c_))}; }
+  /// 420 decimal digits.
+  using Long = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<420>, boost::multiprecision::et_off>;
   /// Cones aside.
-  Real distance(const LatticeWave& wave, const LatticePoint& p) const {
-    const auto a = flat(wave.image), b = flat(p);
-    return real(wave.given) + real(wave.times) * sqrt(Real(r_)) + sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]));
+  Long distance(const LatticeWave& wave, const LatticePoint& p) const {
+    const auto number = [](const mpq_class& q) { return Long(q.get_mpq_t()); };
+    const mpq_class dx = wave.image.x - p.x, dy = wave.image.y - p.y;
+    return number(wave.given) + number(wave.times) * sqrt(Long(r_)) + sqrt(number(dx * dx + c_ * dy * dy));
   }
   bool sees(const LatticeWave& wave, const LatticePoint& p) const {
     const auto turn = [&](const LatticePoint& ray) -> mpq_class {
@@ -114,6 +117,11 @@ class LatticeWaves final : public kernel::FacetWaves {
   const predicates::Site<M>& site(std::size_t i, M, int bits) override { return numbers(m_, bits).sites[i]; }
   const predicates::FacetFrame<Exact>* exact_frame() override { return offers_exact ? &numbers(exact_, 0).frame : nullptr; }
   const predicates::Site<Exact>* exact_site(std::size_t i) override { return &numbers(exact_, 0).sites[i]; }
+
+  bool is_own_relay(std::size_t parent, std::size_t relay) override {
+    const auto& cone = sites[parent].cone;
+    return sites[relay].root == cone[0] || sites[relay].root == cone[1];
+  }
 
   bool offers_exact = true;
 

@@ -166,17 +166,31 @@ inline TiedFacet tied_facet(Node::Kind kind, std::size_t n, bool mirrored, bool 
   return f;
 }
 
+/// The wave turned about p by the angle of tangent 2 t sqrt(c) / (1 - c t^2): it still ties there.
+inline LatticePoint turned(const TiedFacet& f, const LatticePoint& v, const mpq_class& t) {
+  const mpq_class square = f.c * t * t, cosine = (1 - square) / (1 + square), sine = 2 * t / (1 + square);
+  return {cosine * v.x - f.c * sine * v.y, sine * v.x + cosine * v.y};
+}
+
+/// One more wave, which comes nearly along the line of the first one.
+inline void add_close_direction(TiedFacet& f, Random& random) {
+  f.turned = true;
+  f.to_image.push_back(turned(f, f.to_image[0], random.below(2) == 0 ? small_step(random) : mpq_class(-small_step(random))));
+  f.share.push_back(f.share[0]);
+  f.late.push_back(0);
+}
+
 /// One wave later or earlier by a step, or seen from p in a direction turned by one: then it still ties there.
 inline TiedFacet neighbour(TiedFacet f, Random& random) {
   const std::uint32_t i = random.below(static_cast<std::uint32_t>(f.late.size()));
   const mpq_class step = random.below(2) == 0 ? small_step(random) : mpq_class(-small_step(random));
   if (!f.one_source && random.below(2) == 0) {
     f.late[i] = step;
-  } else {  // by the angle of tangent 2 t sqrt(c) / (1 - c t^2)
-    const mpq_class square = f.c * step * step, cosine = (1 - square) / (1 + square), sine = 2 * step / (1 + square);
-    const LatticePoint v = f.to_image[i];
+  } else {
+    const LatticePoint v = turned(f, f.to_image[i], step);
+    if (std::any_of(f.to_image.begin(), f.to_image.end(), [&](const auto& other) { return other.x == v.x && other.y == v.y; })) return neighbour(f, random);
     f.turned = true;
-    f.to_image[i] = {cosine * v.x - f.c * sine * v.y, sine * v.x + cosine * v.y};
+    f.to_image[i] = v;
   }
   return f;
 }
@@ -249,6 +263,15 @@ inline Walls walls(std::size_t n, Random& random) {
   while (std::any_of(w.circle.to_image.begin(), w.circle.to_image.end(), facing));
   for (std::size_t i = 0; i < n; ++i) w.end.push_back(static_cast<int>(random.below(2)));
   return w;
+}
+
+/// The second wave starts on the line of the first one, and ties with it all along from there on, or is a little late, or early; a third one comes from elsewhere.
+inline TiedFacet on_one_line(const mpq_class& late, Random& random) {
+  TiedFacet f = tied_facet(Node::Kind::inside, 2, false, false, random);
+  f.to_image = {f.to_image[0], f.to_image[0], f.to_image[1]};
+  f.share = {1, mpq_class(3, 4), 1};
+  f.late = {0, late, 0};
+  return f;
 }
 
 /// `n` images in a row, beyond one side, of one distance: nowhere do three of them tie. `bent`: the second one a hair off the row, so that it does, far away.

@@ -127,6 +127,7 @@ class FacetZeros : public testing::TestWithParam<ZeroShare> {
   void where_boundary_rays_meet(int round);
   void vertices_on_boundary_rays();
   void images_in_one_row(int round);
+  void images_on_one_line(int round);
 
   Random random{GetParam().seed()};
   ZeroCounts counts;
@@ -134,7 +135,9 @@ class FacetZeros : public testing::TestWithParam<ZeroShare> {
 
 void FacetZeros::at_a_point(Node::Kind kind, int round) {
   const std::size_t n = kind == Node::Kind::inside ? 4 + random.below(5) : 3 + random.below(5);
-  const TiedFacet f = tied_facet(kind, n, round % 2 == 0, round % 4 != 0, random), off = neighbour(f, random);
+  TiedFacet f = tied_facet(kind, n, round % 2 == 0, round % 4 != 0, random);
+  if (round % 8 == 5) add_close_direction(f, random);
+  const TiedFacet off = neighbour(f, random);
   for (const bool tie : {true, false}) {
     const TiedFacet& c = tie ? f : off;
     LatticeWaves waves = c.waves();
@@ -220,6 +223,28 @@ void FacetZeros::images_in_one_row(int round) {
   }
 }
 
+/// A wave that starts on another one's line gets nothing if it is on time or late. If it is early it has a sliver about that line, up to where the third one is
+/// nearer: a triple with two vertices, close to each other.
+void FacetZeros::images_on_one_line(int round) {
+  const mpq_class step = small_step(random);
+  const std::uint64_t seed = random.next();
+  for (const int late : {0, 1, -1}) {
+    Random same(seed);
+    LatticeWaves waves = on_one_line(late * step, same).waves();
+    const FacetTessellation t = tessellated(waves, late == 0, round);
+    std::vector<std::vector<std::uint32_t>> inside;
+    for (const Node& node : t.nodes)
+      if (node.kind == Node::Kind::inside) inside.push_back(node.sites);
+    ASSERT_EQ(inside.size(), late < 0 ? 2u : 0u) << late;
+    TripleVertices vertices(waves, late == 0 ? counts.zeros : counts.neighbours);
+    for (const std::array<std::uint32_t, 3>& ijk : {std::array{0u, 1u, 2u}, std::array{1u, 0u, 2u}}) {
+      const auto expected = late < 0 ? std::vector(ijk.begin(), ijk.end()) : std::vector<std::uint32_t>();
+      EXPECT_TRUE(same_cycle(vertices.regions(ijk, {0, 1, 2}), expected)) << late;
+      EXPECT_TRUE(late >= 0 || same_cycle(inside[0], expected) || same_cycle(inside[1], expected));
+    }
+  }
+}
+
 TEST_P(FacetZeros, AndTheirNeighbours) {
   const auto [predicate, number] = GetParam();
   const int most_rounds = static_cast<int>(4 * GetParam().cases());
@@ -231,7 +256,7 @@ TEST_P(FacetZeros, AndTheirNeighbours) {
       case Predicate::location: vertices_on_a_side(round); break;
       case Predicate::conflict: at_a_point(Node::Kind::inside, round); break;
       case Predicate::cone_membership: round % 8 == 0 ? where_boundary_rays_meet(round) : vertices_on_boundary_rays(); break;
-      case Predicate::bisector_vertex: images_in_one_row(round); break;
+      case Predicate::bisector_vertex: round % 2 == 0 ? images_in_one_row(round) : images_on_one_line(round); break;
       default: FAIL() << "no cases of this predicate are made here";
     }
     if (HasFailure()) FAIL() << "round " << round;
