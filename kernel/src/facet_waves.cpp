@@ -42,16 +42,26 @@ FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKin
     corner_labels[k] = resolution.labels(corner[k]);
     corner_is_flat[k] = kinds[corner[k]] == VertexKind::flat;
   }
-  constexpr std::size_t kUsual = 12;
-  sites.reserve(kUsual);
-  sites_.reserve(kUsual);
+  const std::size_t most = most_sites();
+  sites.reserve(most);
+  sites_.reserve(most);
   Arrivals arrivals;
-  arrivals.all.reserve(kUsual);
-  arrivals.kept.reserve(kUsual);
+  arrivals.all.reserve(most);
+  arrivals.kept.reserve(most);
   for (std::uint8_t k = 0; k < 3; ++k) {
     if (field_.corner_sees_face[3 * f + k] != 0) add_corner(k);
     add_side(k, arrivals);
   }
+}
+
+/// Hardly any of them turns out to be nowhere nearest, and they are kept until the diagram is made.
+std::size_t FieldWaves::most_sites() const {
+  std::size_t count = 0;
+  for (HalfedgeId h = 3 * face; h < 3 * face + 3; ++h) {
+    count += field_.corner_sees_face[h] != 0 ? 1 : 0;
+    for (WindowId w = field_.first_window[h]; w != kNone; w = field_.windows[w].next) count += field_.windows[w].dominated() ? 0 : 1;
+  }
+  return count;
 }
 
 void FieldWaves::add_corner(std::uint8_t k) {
@@ -82,9 +92,11 @@ const Strip& FieldWaves::strip(std::size_t i) const {
 
 /// Sorts out the windows of one side as the propagation does, with all of them and the final distances at hand.
 void FieldWaves::add_side(std::uint8_t side, Arrivals& arrivals) {
-  auto& [list, kept, unfolded] = arrivals;
+  auto &list = arrivals.all, &kept = arrivals.kept;
   list.clear();
   kept.clear();
+  const auto upper = [&](std::uint8_t k) { return resolution_.distance(corner[k % 3]).upper() * (1 + 0x1p-48); };
+  arrivals.upper = {upper(side), upper(side + 1)};
   for (WindowId w = field_.first_window[3 * face + side]; w != kNone; w = field_.windows[w].next) {
     Arrival arrival;
     if (arrive(w, side, arrivals, arrival)) list.push_back(arrival);
@@ -135,9 +147,8 @@ bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, 
     const double d = arrival.weight + frame.length * std::sqrt(dx * dx + y2);
     return d * (1 - 0x1p-48) - arrival.weight_error - arrival.image_error;
   };
-  const auto up = [&](VertexId v) { return resolution_.distance(v).upper() * (1 + 0x1p-48); };
-  return !(up(corner[side]) + arrival.end * frame.length * (1 + 0x1p-48) < low(arrival.end) ||
-           up(corner[(side + 1) % 3]) + (1 - arrival.begin) * frame.length * (1 + 0x1p-48) < low(arrival.begin));
+  return !(arrivals.upper[0] + arrival.end * frame.length * (1 + 0x1p-48) < low(arrival.end) ||
+           arrivals.upper[1] + (1 - arrival.begin) * frame.length * (1 + 0x1p-48) < low(arrival.begin));
 }
 
 void FieldWaves::add_window(const Arrival& arrival, std::uint8_t side) {

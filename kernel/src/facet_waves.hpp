@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <forward_list>
 #include <map>
 #include <memory>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -56,9 +59,13 @@ class FieldWaves final : public FacetWaves {
   };
   /// While they are sorted out: room that the three sides share.
   struct Arrivals {
-    std::vector<Arrival> all, kept;
+    std::array<std::byte, 1 << 12> first_room;
+    std::pmr::monotonic_buffer_resource room{first_room.data(), first_room.size()};
+    std::pmr::vector<Arrival> all{&room}, kept{&room};
+    std::array<double, 2> upper{};  ///< bounds of the distances of the present side's ends
     std::forward_list<UnfoldedWindows<double>::Entry> unfolded;  ///< those that nobody knew
   };
+  std::size_t most_sites() const;
   void add_side(std::uint8_t side, Arrivals& arrivals);
   bool arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, Arrival& arrival) const;
   void add_window(const Arrival& arrival, std::uint8_t side);
