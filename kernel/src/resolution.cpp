@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "exact_unfoldings.hpp"
 #include "gvd/kernel/error.hpp"
@@ -280,14 +282,18 @@ std::optional<std::vector<std::uint32_t>> Resolution::nearest_exactly(const std:
   return nearest;
 }
 
+/// Round both at once: the fan of one of them may be long.
 HalfedgeId Resolution::edge_between(VertexId a, VertexId b) const {
   const Mesh& mesh = frames_.mesh();
-  HalfedgeId found = kNone;
-  mesh.for_each_outgoing(a, [&](HalfedgeId h) {
-    if (mesh.target(h) == b) found = h;
-    if (mesh.origin(Mesh::prev(h)) == b) found = Mesh::prev(h);
-  });
-  return found;
+  const auto beside = [&](HalfedgeId h, VertexId v) { return mesh.target(h) == v ? h : mesh.origin(Mesh::prev(h)) == v ? Mesh::prev(h) : kNone; };
+  HalfedgeId of_a = mesh.outgoing(a), of_b = mesh.outgoing(b);
+  while (of_a != kNone || of_b != kNone) {
+    for (const auto& [h, v] : {std::pair(of_a, b), std::pair(of_b, a)})
+      if (const HalfedgeId found = h == kNone ? kNone : beside(h, v); found != kNone) return found;
+    for (auto& [h, v] : {std::tie(of_a, a), std::tie(of_b, b)})
+      if (h != kNone && (h = mesh.twin(Mesh::prev(h))) == mesh.outgoing(v)) h = kNone;
+  }
+  return kNone;
 }
 
 Ball<DoubleDouble> Resolution::length(const Candidate& c, VertexId v) {
