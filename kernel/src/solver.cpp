@@ -194,26 +194,26 @@ class Solver {
 
   /// Neighbouring facets share most of their strips.
   UnfoldedWindows<double> unfold_windows(const std::vector<FaceId>& faces) const {
-    UnfoldedWindows<double> unfolded(*s_.frames, s_.field);
+    std::vector<WindowId> wanted;
     for (const FaceId f : faces)
       for (HalfedgeId h = 3 * f; h < 3 * f + 3; ++h)
         for (WindowId w = s_.field.first_window[h]; w != kNone; w = s_.field.windows[w].next)
-          if (!s_.field.windows[w].dominated()) unfolded.add(w);
-    return unfolded;
+          if (!s_.field.windows[w].dominated()) wanted.push_back(w);
+    return UnfoldedWindows<double>(*s_.frames, s_.field, wanted);
   }
 
   /// The windows beside GVD arcs, whose points are wanted correctly rounded.
   UnfoldedWindows<robust::DoubleDouble> unfold_beside_arcs() const {
-    UnfoldedWindows<robust::DoubleDouble> unfolded(*s_.frames, s_.field);
+    std::vector<WindowId> wanted;
     for (const BoundaryFacet& facet : facets_) {
       const auto& sites = facet.waves->sites;
       for (const auto& arc : facet.tessellation->arcs) {
         if (sites[arc.left].labels == sites[arc.right].labels) continue;
         for (const std::uint32_t site : {arc.left, arc.right})
-          if (sites[site].window != kNone) unfolded.add(sites[site].window);
+          if (sites[site].window != kNone) wanted.push_back(sites[site].window);
       }
     }
-    return unfolded;
+    return UnfoldedWindows<robust::DoubleDouble>(*s_.frames, s_.field, wanted);
   }
 
   bool tessellate_facets() {

@@ -5,6 +5,25 @@
 namespace gvd::kernel {
 
 template <class T>
+UnfoldedWindows<T>::UnfoldedWindows(const Frames& frames, const DistanceField& field, const std::vector<WindowId>& wanted)
+    : entry_of_(field.windows.size(), kNone) {
+  std::size_t count = 0;
+  for (const WindowId w : wanted) entry_of_[w] = 0;
+  for (auto w = static_cast<WindowId>(entry_of_.size()); w-- > 0;) {
+    if (entry_of_[w] == kNone) continue;
+    ++count;
+    if (const WindowId parent = field.windows[w].parent; parent != kNone) entry_of_[parent] = 0;
+  }
+  entries_.reserve(count);
+  for (WindowId w = 0; w < entry_of_.size(); ++w) {
+    if (entry_of_[w] == kNone) continue;
+    const WindowId parent = field.windows[w].parent;
+    entry_of_[w] = static_cast<std::uint32_t>(entries_.size());
+    entries_.push_back(make(frames, field, w, parent == kNone ? nullptr : &entries_[entry_of_[parent]]));
+  }
+}
+
+template <class T>
 typename UnfoldedWindows<T>::Entry UnfoldedWindows<T>::make(const Frames& frames, const DistanceField& field, WindowId window,
                                                             const Entry* parent) {
   const WindowRecord& record = field.windows[window];

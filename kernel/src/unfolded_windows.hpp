@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <vector>
 
 #include "gvd/kernel/distance_field.hpp"
@@ -11,7 +10,7 @@
 namespace gvd::kernel {
 
 /// Windows unfolded along the tree of their strips: each from its parent's numbers by the one face between them, which gives the same numbers as
-/// its whole strip. Not for several threads while windows are added.
+/// its whole strip.
 template <class T>
 class UnfoldedWindows {
  public:
@@ -25,19 +24,8 @@ class UnfoldedWindows {
     bool dead = false;       ///< the window, or one that it comes from, was superseded
   };
 
-  UnfoldedWindows(const Frames& frames, const DistanceField& field) : frames_(frames), field_(field), entry_of_(field.windows.size(), kNone) {}
-
-  /// Adds the window and all it comes from.
-  const Entry& add(WindowId window) {
-    path_.clear();
-    for (; window != kNone && entry_of_[window] == kNone; window = field_.windows[window].parent) path_.push_back(window);
-    const Entry* entry = window == kNone ? nullptr : &entries_[entry_of_[window]];
-    for (; !path_.empty(); path_.pop_back()) {
-      entry_of_[path_.back()] = static_cast<std::uint32_t>(entries_.size());
-      entry = &entries_.emplace_back(make(frames_, field_, path_.back(), entry));
-    }
-    return *entry;
-  }
+  /// Those wanted and all they come from, in the order in which windows were made: parents first.
+  UnfoldedWindows(const Frames& frames, const DistanceField& field, const std::vector<WindowId>& wanted);
   /// A single window, of which no other one is known.
   static Entry alone(const Frames& frames, const DistanceField& field, WindowId window) {
     std::vector<WindowId> path;
@@ -46,7 +34,7 @@ class UnfoldedWindows {
     for (path.pop_back(); !path.empty(); path.pop_back()) entry = make(frames, field, path.back(), &entry);
     return entry;
   }
-  /// Null if it was not added.
+  /// Null if it was not wanted.
   const Entry* find(WindowId window) const { return entry_of_[window] == kNone ? nullptr : &entries_[entry_of_[window]]; }
 
  private:
@@ -58,11 +46,8 @@ class UnfoldedWindows {
       return frames.in_double_double(h);
   }
 
-  const Frames& frames_;
-  const DistanceField& field_;
   std::vector<std::uint32_t> entry_of_;  ///< per window
-  std::deque<Entry> entries_;
-  std::vector<WindowId> path_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace gvd::kernel
