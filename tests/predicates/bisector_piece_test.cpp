@@ -147,7 +147,9 @@ TEST(BisectorPiece, WhatTiesOnThePieceIsNeverCalledFarther) {
     DoubleWave other = family.wave();
     other.weight = gvd::predicates::distance(ends->pair.left, *at) - gvd::predicates::distance({other.image, 0, 0}, *at);
     EXPECT_FALSE(piece->is_nearer_than(other)) << "round " << round;
-    EXPECT_FALSE(piece->is_right_of({*at, family.point(), 0, 0})) << "round " << round;
+    const DoublePoint chord{ends->to.x - ends->from.x, ends->to.y - ends->from.y};
+    for (const DoublePoint& along : {family.point(), chord, DoublePoint{-chord.x, -chord.y}})
+      EXPECT_FALSE(piece->is_right_of({*at, along, 0, 0})) << "round " << round;
   }
   EXPECT_GT(asked, 250);
 }
