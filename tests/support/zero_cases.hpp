@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct ZeroShare {
   std::uint64_t cases() const { return static_cast<std::uint64_t>(zeros_of_a_family(static_cast<std::size_t>(shares()))); }
   int shares() const { return kZeroCases[static_cast<std::size_t>(predicate)].shares; }
   std::uint64_t seed() const { return 1000 * (static_cast<std::uint64_t>(predicate) + 1) + static_cast<std::uint64_t>(number); }
+  friend void PrintTo(const ZeroShare& share, std::ostream* out) { *out << share.name(); }
   std::string name() const { return predicates::kPredicateNames[static_cast<std::size_t>(predicate)] + ("_" + std::to_string(number)); }
 };
 /// All shares of one program.
