@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -36,8 +37,22 @@ struct Loop {
   std::uint32_t region;
   LabelSetId labels;
   FaceId face;
-  std::vector<std::uint32_t> darts;
+  std::uint32_t begin, end;  ///< range of its darts
   double area = 0;
+};
+
+/// The frame of a facet in that of its input face, in plain doubles: areas are for information.
+struct PlainMap {
+  explicit PlainMap(const FaceMap<FacetWaves::F>& map) : turn(plain(map.turn())) {
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = plain(map.corner(k));
+  }
+  static PlanePosition plain(const predicates::PlanePoint<FacetWaves::F>& p) { return {p.x.mid(), p.y.mid()}; }
+  PlanePosition operator()(const predicates::PlanePoint<FacetWaves::F>& p) const {
+    const double x = p.x.mid(), y = p.y.mid();
+    return {corner[0].x + (x * turn.x - y * turn.y), corner[0].y + (x * turn.y + y * turn.x)};
+  }
+  PlanePosition turn;
+  std::array<PlanePosition, 3> corner;
 };
 
 class PieceMaker {
@@ -91,31 +106,40 @@ class PieceMaker {
   void make_loops() {
     arc_area_.assign(s_.darts.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<std::uint8_t> visited(s_.darts.size(), 0);
+    loop_darts_.reserve(s_.darts.size());
     for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
       if (visited[d] != 0 || is_removed(d)) continue;
       const FaceId face = in_.refined.input_face(s_.facets[s_.darts[d].facet].face);
-      Loop loop{root_of(region_, d), s_.darts[d].labels, face, {}};
-      for (std::uint32_t x = d; visited[x] == 0; x = next_[x]) {
+      const auto begin = static_cast<std::uint32_t>(loop_darts_.size());
+      Loop loop{root_of(region_, d), s_.darts[d].labels, face, begin, begin};
+      P from{};  // of the dart, if it goes on in the facet of the one before
+      for (std::uint32_t x = d, facet = kNone; visited[x] == 0; x = next_[x]) {
         visited[x] = 1;
-        loop.darts.push_back(x);
-        loop.area += dart_area(x);
+        loop_darts_.push_back(x);
+        const Dart& dart = s_.darts[x];
+        if (dart.facet != facet) from = position(map_of(dart.facet), dart.facet, dart.from);
+        facet = dart.facet;
+        const P to = position(map_of(facet), facet, s_.to(x));
+        loop.area += dart_area(x, from, to);
+        from = to;
       }
-      loops_.push_back(std::move(loop));
+      loop.end = static_cast<std::uint32_t>(loop_darts_.size());
+      loops_.push_back(loop);
     }
     // Within a face pieces in the order of their lowest dart; of a piece first the outer outline, which alone has a positive area.
     std::vector<std::uint32_t> first_of(s_.darts.size(), kNone);
-    for (const Loop& loop : loops_) first_of[loop.region] = std::min(first_of[loop.region], loop.darts.front());
+    for (const Loop& loop : loops_) first_of[loop.region] = std::min(first_of[loop.region], loop_darts_[loop.begin]);
     using Key = std::tuple<FaceId, std::uint32_t, bool, std::uint32_t>;  // the last one tells any two apart
     std::vector<std::pair<Key, std::uint32_t>> order;
     order.reserve(loops_.size());
     for (std::uint32_t i = 0; i < loops_.size(); ++i) {
       const Loop& loop = loops_[i];
-      order.push_back({{loop.face, first_of[loop.region], loop.area < 0, loop.darts.front()}, i});
+      order.push_back({{loop.face, first_of[loop.region], loop.area < 0, loop_darts_[loop.begin]}, i});
     }
     std::sort(order.begin(), order.end());
     std::vector<Loop> sorted;
     sorted.reserve(loops_.size());
-    for (const auto& [key, i] : order) sorted.push_back(std::move(loops_[i]));
+    for (const auto& [key, i] : order) sorted.push_back(loops_[i]);
     loops_ = std::move(sorted);
   }
 
@@ -124,54 +148,44 @@ class PieceMaker {
   using NT = FacetWaves::F;
   using P = PlanePosition;
 
-  P position(const FaceMap<NT>& map, std::uint32_t facet, std::uint32_t p) const {
+  P position(const PlainMap& map, std::uint32_t facet, std::uint32_t p) const {
     const Skeleton& f = s_.facets[facet];
     const Place& place = s_.places[p];
-    const auto corner = [&](std::size_t k) { return P{map.corner(k).x.mid(), map.corner(k).y.mid()}; };
     if (place.kind == Place::Kind::vertex) {
       for (std::uint32_t k = 0; k < 3; ++k)
-        if (in_.refined.origin(3 * f.face + k) == place.vertex) return corner(k);
+        if (in_.refined.origin(3 * f.face + k) == place.vertex) return map.corner[k];
     }
     const auto& node = s_.facets[place.facet].tessellation->nodes[place.node];
-    if (place.kind == Place::Kind::inside) {
-      const auto at = map({node.x, node.y});
-      return {at.x.mid(), at.y.mid()};
-    }
+    if (place.kind == Place::Kind::inside) return map({node.x, node.y});
     const bool own = place.facet == facet;
     const std::size_t side =
         own ? node.where : (Mesh::face(place.halfedge) == f.face ? place.halfedge : in_.refined.twin(place.halfedge)) % 3;
     const double t = own ? node.t.mid() : 1 - node.t.mid();
-    const P a = corner(side), b = corner((side + 1) % 3);
+    const P &a = map.corner[side], &b = map.corner[(side + 1) % 3];
     return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
   }
 
-  const FaceMap<NT>& map_of(std::uint32_t facet) {
+  const PlainMap& map_of(std::uint32_t facet) {
     if (mapped_ != facet) {
       const Skeleton& f = s_.facets[facet];
-      // A face without waves is a part of a split face: its own frame does not matter.
-      const predicates::PlanePoint<NT> apex =
-          f.waves == nullptr ? predicates::PlanePoint<NT>{NT(0.0), NT(1.0)} : frame_in<NT>(*f.waves, 0).apex;
-      map_.emplace(in_.input, in_.refined, f.face, apex, 0);
+      map_.emplace(FaceMap<NT>(in_.input, in_.refined, f.face, f.waves == nullptr ? nullptr : &frame_in<NT>(*f.waves, 0), 0));
       mapped_ = facet;
     }
     return *map_;
   }
 
-  double dart_area(std::uint32_t d) {
+  double dart_area(std::uint32_t d, const P& from, const P& to) {
     const Dart& dart = s_.darts[d];
-    const FaceMap<NT>& map = map_of(dart.facet);
-    const P from = position(map, dart.facet, dart.from), to = position(map, dart.facet, s_.to(d));
     if (dart.arc == kNone) return straight_area(from, to);
     const Skeleton& f = s_.facets[dart.facet];
     const auto& arc = f.tessellation->arcs[dart.arc];
     if (arc.tangent) return straight_area(from, to);
     if (!std::isnan(arc_area_[dart.twin])) return -arc_area_[dart.twin];  // the same arc the other way
+    const PlainMap& map = map_of(dart.facet);
     const double unit = frame_in<NT>(*f.waves, 0).length.mid();
     const auto &mine = site_in<NT>(*f.waves, arc.left, 0), &other = site_in<NT>(*f.waves, arc.right, 0);
-    const auto focus = map(mine.image), other_focus = map(other.image);
-    const double area =
-        conic_area({focus.x.mid(), focus.y.mid()}, mine.weight.mid() * unit, {other_focus.x.mid(), other_focus.y.mid()},
-                   other.weight.mid() * unit, dart.site == arc.left ? from : to, dart.site == arc.left ? to : from);
+    const double area = conic_area(map(mine.image), mine.weight.mid() * unit, map(other.image), other.weight.mid() * unit,
+                                   dart.site == arc.left ? from : to, dart.site == arc.left ? to : from);
     return arc_area_[d] = dart.site == arc.left ? area : -area;
   }
 
@@ -220,12 +234,13 @@ class PieceMaker {
   }
 
   std::vector<CellPiece::Side> outline(const Loop& loop) const {
-    auto darts = loop.darts;
-    const auto first =
-        std::find_if(darts.begin(), darts.end(), [&](std::uint32_t d) { return name_of(s_.darts[d].from, loop.face) != kNone; });
-    std::rotate(darts.begin(), first, darts.end());
+    const auto darts = std::span(loop_darts_).subspan(loop.begin, loop.end - loop.begin);
+    const auto is_named = [&](std::uint32_t d) { return name_of(s_.darts[d].from, loop.face) != kNone; };
+    const auto first = static_cast<std::size_t>(std::find_if(darts.begin(), darts.end(), is_named) - darts.begin());
     std::vector<CellPiece::Side> sides;
-    for (const std::uint32_t d : darts) {
+    sides.reserve(darts.size());
+    for (std::size_t i = 0; i < darts.size(); ++i) {
+      const std::uint32_t d = darts[(first + i) % darts.size()];
       const std::uint32_t name = name_of(s_.darts[d].from, loop.face);
       if (name == kNone) continue;
       CellPiece::Side side{.from = name};
@@ -263,8 +278,9 @@ class PieceMaker {
   Diagram& d_;
   std::vector<std::uint32_t> next_, region_;
   std::vector<Loop> loops_;
+  std::vector<std::uint32_t> loop_darts_;
   std::vector<double> arc_area_;  // per dart of an arc, once known
-  std::optional<FaceMap<NT>> map_;
+  std::optional<PlainMap> map_;
   std::uint32_t mapped_ = kNone;
   std::vector<std::uint32_t> link_of_;  // per dart
 };
@@ -294,15 +310,16 @@ class EulerCount {
     if (!labels.empty() && labels.back() == kNone) labels.pop_back();
     if (labels.empty()) return;
     of_surface += sign;
+    for (const LabelSetId l : labels) of_labels[l] += sign;
+    const auto is_single = [&](LabelSetId l) { return in_.label_sets[l].size() == 1; };
+    if (std::all_of(labels.begin(), labels.end(), is_single)) {  // other sets, other sources
+      for (const LabelSetId l : labels) of_source[in_.label_sets[l].front()] += sign;
+      return;
+    }
     sources_.clear();
-    for (const LabelSetId l : labels) {
-      of_labels[l] += sign;
-      sources_.insert(sources_.end(), in_.label_sets[l].begin(), in_.label_sets[l].end());
-    }
-    if (labels.size() > 1) {
-      std::sort(sources_.begin(), sources_.end());
-      sources_.erase(std::unique(sources_.begin(), sources_.end()), sources_.end());
-    }
+    for (const LabelSetId l : labels) sources_.insert(sources_.end(), in_.label_sets[l].begin(), in_.label_sets[l].end());
+    std::sort(sources_.begin(), sources_.end());
+    sources_.erase(std::unique(sources_.begin(), sources_.end()), sources_.end());
     for (const SourceId source : sources_) of_source[source] += sign;
   }
   /// The same inside the region of one label set.

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,12 @@ Enclosed enclosed(const robust::Exact& x);
 template <class T>
 Enclosed enclosed(const robust::Ball<T>& x) {
   return {robust::Midpoint<T>::nearest(x.mid()), x.lower(), x.upper()};
+}
+/// The same in double-double with one operation an end: each is moved outward by more than its rounding.
+Enclosed enclosed(const FacetWaves::DD& x) {
+  const auto [hi, lo] = x.mid();
+  const double out = (std::fabs(lo) + x.rad()) * (1 + 0x1p-50) + std::fabs(hi) * 0x1p-52;
+  return {hi, x.rad() == 0 && lo == 0 ? hi : hi - out, x.rad() == 0 && lo == 0 ? hi : hi + out};
 }
 Enclosed enclosed(const robust::Exact& x) { return enclosed(x.enclosure(kExactBits)); }
 
@@ -63,44 +70,39 @@ Stage climb(const HasExact& has_exact, const Attempt& attempt) {
 template <class NT>
 struct FacetSpace {
   FacetSpace(const DiagramInput& in, const Skeleton& facet, int bits)
-      : map(in.input, in.refined, facet.face, frame_in<NT>(*facet.waves, bits).apex, bits),
-        numbers(numbers_without_waves<NT>(*facet.waves, bits)) {
+      : numbers(numbers_without_waves<NT>(*facet.waves, bits)), map(in.input, in.refined, facet.face, numbers.frame, bits) {
     for (std::uint32_t k = 0; k < 3; ++k) corner[k] = position_in<NT>(in.refined, in.refined.origin(3 * facet.face + k), bits);
   }
+  FacetNumbers<NT> numbers;
   FaceMap<NT> map;
   std::array<std::array<NT, 3>, 3> corner;
-  FacetNumbers<NT> numbers;
 };
 
-/// Those in double-double are kept for the next point or arc of the same facet.
-class FacetSpaces {
+/// The facets of one thread in double-double: the last one is kept for the next point or arc.
+class PreciseNumbers {
  public:
-  FacetSpaces(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {}
+  PreciseNumbers(const DiagramInput& in, const Subdivision& s, PreciseWaves& waves) : in_(in), s_(s), waves_(waves) {}
 
-  template <class NT, class Use>
-  auto with(std::uint32_t facet, int bits, const Use& use) {
-    if constexpr (std::is_same_v<NT, FacetWaves::DD>) {
-      if (facet_ != facet) last_.emplace(in_, s_.facets[facet], 0);
-      facet_ = facet;
-      return use(*last_);
-    } else {
-      FacetSpace<NT> space(in_, s_.facets[facet], bits);
-      return use(space);
-    }
+  PreciseFacet& facet(std::uint32_t f) {
+    if (last_ != f) facet_.emplace(in_, s_.facets[f]);
+    last_ = f;
+    return *facet_;
   }
+  const predicates::PreciseWave& wave(std::uint32_t f, std::uint32_t site) { return waves_(f, site); }
 
  private:
   const DiagramInput& in_;
   const Subdivision& s_;
-  std::uint32_t facet_ = kNone;
-  std::optional<FacetSpace<FacetWaves::DD>> last_;
+  PreciseWaves& waves_;
+  std::uint32_t last_ = kNone;
+  std::optional<PreciseFacet> facet_;
 };
 
 class PointBuilder {
  public:
   PointBuilder(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {}
 
-  Stage build(std::uint32_t p, DiagramPoint& point, FacetSpaces& spaces) const {
+  Stage build(std::uint32_t p, DiagramPoint& point, PreciseNumbers& precise) const {
     const Place& place = s_.places[p];
     if (place.kind == Place::Kind::vertex) {
       at_vertex(place, point);
@@ -110,33 +112,52 @@ class PointBuilder {
     point.face = in_.refined.input_face(facet.face);
     if (place.kind == Place::Kind::edge && !in_.refined.is_artificial(place.halfedge)) point.edge = input_edge(in_, place.halfedge);
     const auto& node = facet.tessellation->nodes[place.node];
+    if (const auto near = numbers_near(place, node, precise); near && accept(*near, point)) return Stage::double_double;
     const auto has_exact = [&] {
       return facet_has_exact(*facet.waves, {node.defining[0], node.defining[1], node.defining[2], node.ray});
     };
-    return climb(has_exact, [&]<class NT>(const NT&, int bits) {
-      return spaces.with<NT>(place.facet, bits, [&](FacetSpace<NT>& space) { return accept(numbers(space, place, facet, bits), point); });
-    });
+    return climb(has_exact, [&]<class NT>(const NT&, int bits) { return accept(numbers<NT>(facet, node, bits), point); });
   }
 
  private:
+  using Node = FacetTessellation::Node;
+
+  /// From the doubles of the tessellation; nothing for a ray that meets a side.
+  static std::optional<PointNumbers<FacetWaves::DD>> numbers_near(const Place& place, const Node& node, PreciseNumbers& precise) {
+    const bool on_side = node.kind == Node::Kind::side, on_ray = node.ray != FacetTessellation::kNoSite;
+    if (on_side && on_ray) return std::nullopt;
+    PreciseFacet& facet = precise.facet(place.facet);
+    const auto wave = [&](std::uint32_t site) -> const predicates::PreciseWave& { return precise.wave(place.facet, site); };
+    const auto& def = node.defining;
+    if (on_side) {
+      const auto side = predicates::side_line(facet.frame(), node.where);
+      const auto t = predicates::side_tie_near(side, wave(def[0]), wave(def[1]), node.t.mid(), node.t.rad());
+      return PointNumbers<FacetWaves::DD>{facet.on_side(node.where, t), facet.placed(predicates::point_at(side, t))};
+    }
+    const predicates::NearPoint start{{node.x.mid(), node.y.mid()}, (node.x.rad() + node.y.rad()) * (1 + 0x1p-50)};
+    const auto p = on_ray ? predicates::ray_vertex_near(wave(node.ray), wave(def[0]), wave(def[1]), start)
+                          : predicates::vertex_near(wave(def[0]), wave(def[1]), wave(def[2]), start);
+    return PointNumbers<FacetWaves::DD>{facet.in_space(p), facet.placed(p)};
+  }
+
   template <class NT>
-  static PointNumbers<NT> numbers(FacetSpace<NT>& space, const Place& place, const Skeleton& facet, int bits) {
-    auto& [map, corner, waves] = space;
+  PointNumbers<NT> numbers(const Skeleton& facet, const Node& node, int bits) const {
+    FacetSpace<NT> space(in_, facet, bits);
+    const auto& corner = space.corner;
     PointNumbers<NT> result;
-    const auto& node = facet.tessellation->nodes[place.node];
-    add_waves(*facet.waves, node, bits, waves);
-    if (node.kind == FacetTessellation::Node::Kind::side) {  // two corners only: what they have in common stays exact
-      const NT t = node_parameter(*facet.waves, waves, node);
+    add_waves(*facet.waves, node, bits, space.numbers);
+    if (node.kind == Node::Kind::side) {  // two corners only: what they have in common stays exact
+      const NT t = node_parameter(*facet.waves, space.numbers, node);
       const auto &a = corner[node.where], &b = corner[(node.where + 1) % 3];
       for (std::size_t i = 0; i < 3; ++i) result.position[i] = a[i] + t * (b[i] - a[i]);
-      result.frame = map.corner(node.where) + t * (map.corner((node.where + 1) % 3) - map.corner(node.where));
+      result.frame = space.map(predicates::point_at(space.numbers.side[node.where], t));
       return result;
     }
-    const PlanePoint<NT> p = node_point(*facet.waves, waves, node);
-    const PlanePoint<NT> b = map.affine(p);
+    const PlanePoint<NT> p = node_point(*facet.waves, space.numbers, node), &apex = space.numbers.frame->apex;
+    const NT b2 = p.y / apex.y, b1 = p.x - apex.x * b2;
     for (std::size_t i = 0; i < 3; ++i)
-      result.position[i] = corner[0][i] + (b.x * (corner[1][i] - corner[0][i]) + b.y * (corner[2][i] - corner[0][i]));
-    result.frame = map(p);
+      result.position[i] = corner[0][i] + (b1 * (corner[1][i] - corner[0][i]) + b2 * (corner[2][i] - corner[0][i]));
+    result.frame = space.map(p);
     return result;
   }
 
@@ -174,18 +195,19 @@ class PointBuilder {
   const Subdivision& s_;
 };
 
-/// Calls `work(item, spaces)` for the items of each owner, in parallel; `owner[i]` is that of item i.
+/// Calls `work(item, numbers)` for the items of each owner, in parallel; `owner[i]` is that of item i.
 template <class Work>
-void for_each_owner(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& owner, std::size_t owners, Work&& work) {
+void for_each_owner(const DiagramInput& in, const Subdivision& s, PreciseWaves& waves, const std::vector<std::uint32_t>& owner, std::size_t owners,
+                    Work&& work) {
   std::vector<std::uint32_t> start(owners + 1, 0), items(owner.size());
   for (const std::uint32_t o : owner) ++start[o + 1];
   for (std::size_t o = 0; o < owners; ++o) start[o + 1] += start[o];
   std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
   for (std::uint32_t i = 0; i < owner.size(); ++i) items[fill[owner[i]]++] = i;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, owners, 16), [&](const tbb::blocked_range<std::size_t>& range) {
-    FacetSpaces spaces(in, s);
+    PreciseNumbers numbers(in, s, waves);
     for (std::size_t o = range.begin(); o < range.end(); ++o)
-      for (std::uint32_t k = start[o]; k < start[o + 1]; ++k) work(items[k], spaces);
+      for (std::uint32_t k = start[o]; k < start[o + 1]; ++k) work(items[k], numbers);
   });
 }
 
@@ -194,12 +216,12 @@ void for_each_owner(const DiagramInput& in, const Subdivision& s, const std::vec
 class ArcBuilder {
  public:
   ArcBuilder(const DiagramInput& in, const Subdivision& s) : in_(in), s_(s) {
+    start_.assign(in.refined.vertex_count(), std::numeric_limits<double>::quiet_NaN());
     for (const DiagramSource& source : in.sources)
-      if (!source.hidden) start_.push_back({source.vertex, source.weight});
-    std::sort(start_.begin(), start_.end());
+      if (!source.hidden) start_[source.vertex] = source.weight;
   }
 
-  void build(DirectedLink link, Arc& arc, FacetSpaces& spaces) const {
+  void build(DirectedLink link, Arc& arc, PreciseNumbers& precise) const {
     const Dart* beside[2] = {&s_.darts[dart_beside(s_, link, 0)], &s_.darts[dart_beside(s_, link, 1)]};
     const std::size_t low =
         in_.refined.input_face(s_.facets[beside[0]->facet].face) <= in_.refined.input_face(s_.facets[beside[1]->facet].face) ? 0
@@ -212,16 +234,30 @@ class ArcBuilder {
     const FacetSite &l = left.sites[beside[0]->site], &r = right.sites[beside[1]->site];
     arc.labels = {l.labels, r.labels};
     arc.root = {l.root, r.root};
-    climb([] { return false; }, [&]<class NT>(const NT&, int bits) {
-      return spaces.with<NT>(home.facet, bits, [&](const FacetSpace<NT>& space) { return numbers(space.map, beside, home, arc, bits); });
-    });
+    if (beside[0]->facet == beside[1]->facet && numbers_near(beside, arc, precise)) return;
+    climb([] { return false; }, [&]<class NT>(const NT&, int bits) { return numbers<NT>(beside, home, arc, bits); });
   }
 
  private:
+  /// Of an arc inside a facet.
+  bool numbers_near(const Dart* const (&beside)[2], Arc& arc, PreciseNumbers& precise) const {
+    const PreciseFacet& facet = precise.facet(beside[0]->facet);
+    std::array<FacetWaves::DD, 2> weight;
+    bool sharp = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const predicates::PreciseWave& wave = precise.wave(beside[i]->facet, beside[i]->site);
+      weight[i] = wave.weight * facet.frame().length;
+      sharp = set_wave(arc, i, facet.placed(wave.image), weight[i]) && sharp;
+    }
+    arc.conic = conic(beside, arc, maybe_sign(weight[0] - weight[1]));
+    return sharp;
+  }
+
   template <class NT>
-  bool numbers(const FaceMap<NT>& map, const Dart* const (&beside)[2], const Dart& home, Arc& arc, int bits) const {
+  bool numbers(const Dart* const (&beside)[2], const Dart& home, Arc& arc, int bits) const {
     const Skeleton& facet = s_.facets[home.facet];
     const auto& frame = frame_in<NT>(*facet.waves, bits);
+    const FaceMap<NT> map(in_.input, in_.refined, facet.face, &frame, bits);
     std::array<NT, 2> weight;
     bool sharp = true;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -233,15 +269,19 @@ class ArcBuilder {
         const auto z = seen_from_side(predicates::side_line(frame_in<NT>(*other.waves, bits), dart.halfedge % 3), site.image);
         image = placed_at_side(predicates::side_line(frame, home.halfedge % 3), PlanePoint<NT>{NT(1.0) - z.x, -z.y});
       }
-      const PlanePoint<NT> placed = map(image);
       weight[i] = site.weight * frame_in<NT>(*other.waves, bits).length;
-      arc.image[i] = {enclosed(placed.x), enclosed(placed.y)};
-      arc.weight[i] = enclosed(weight[i]);
-      const double size = std::max(std::fabs(arc.image[i][0].value), std::fabs(arc.image[i][1].value));
-      sharp = sharp && is_sharp(placed.x, size) && is_sharp(placed.y, size) && is_sharp(weight[i], 0);
+      sharp = set_wave(arc, i, map(image), weight[i]) && sharp;
     }
     arc.conic = conic(beside, arc, maybe_sign(weight[0] - weight[1]));
     return sharp;
+  }
+
+  template <class NT>
+  static bool set_wave(Arc& arc, std::size_t i, const PlanePoint<NT>& image, const NT& weight) {
+    arc.image[i] = {enclosed(image.x), enclosed(image.y)};
+    arc.weight[i] = enclosed(weight);
+    const double size = std::max(std::fabs(arc.image[i][0].value), std::fabs(arc.image[i][1].value));
+    return is_sharp(image.x, size) && is_sharp(image.y, size) && is_sharp(weight, 0);
   }
 
   Arc::Conic conic(const Dart* const (&beside)[2], const Arc& arc, robust::MaybeSign difference) const {
@@ -254,19 +294,11 @@ class ArcBuilder {
   }
 
   /// Whether two roots are sources of one weight.
-  bool start_together(const std::array<VertexId, 2>& root) const {
-    std::array<const std::pair<VertexId, double>*, 2> found{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      const auto at = std::lower_bound(start_.begin(), start_.end(), std::pair{root[i], -1.0});
-      if (at == start_.end() || at->first != root[i]) return false;
-      found[i] = &*at;
-    }
-    return found[0]->second == found[1]->second;
-  }
+  bool start_together(const std::array<VertexId, 2>& root) const { return start_[root[0]] == start_[root[1]]; }
 
   const DiagramInput& in_;
   const Subdivision& s_;
-  std::vector<std::pair<VertexId, double>> start_;
+  std::vector<double> start_;  // per vertex: the weight of a source that starts there, or not a number
 };
 
 }  // namespace
@@ -293,7 +325,7 @@ std::array<VertexId, 2> input_edge(const DiagramInput& in, HalfedgeId h) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-std::vector<DiagramPoint> construct_points(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& places,
+std::vector<DiagramPoint> construct_points(const DiagramInput& in, const Subdivision& s, PreciseWaves& waves, const std::vector<std::uint32_t>& places,
                                            predicates::Decisions& decisions) {
   std::vector<DiagramPoint> points(places.size());
   std::vector<Stage> stage(places.size());
@@ -303,8 +335,8 @@ std::vector<DiagramPoint> construct_points(const DiagramInput& in, const Subdivi
     owner[i] = facet == kNone ? static_cast<std::uint32_t>(s.facets.size()) : facet;
   }
   const PointBuilder builder(in, s);
-  for_each_owner(in, s, owner, s.facets.size() + 1,
-                 [&](std::uint32_t i, FacetSpaces& spaces) { stage[i] = builder.build(places[i], points[i], spaces); });
+  for_each_owner(in, s, waves, owner, s.facets.size() + 1,
+                 [&](std::uint32_t i, PreciseNumbers& numbers) { stage[i] = builder.build(places[i], points[i], numbers); });
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (stage[i] == Stage::undecided)
       predicates::undecided(decisions, Predicate::rounding,
@@ -315,19 +347,20 @@ std::vector<DiagramPoint> construct_points(const DiagramInput& in, const Subdivi
   return points;
 }
 
-void construct_arcs(const DiagramInput& in, const Subdivision& s, const std::vector<DirectedLink>& links, std::vector<Arc>& arcs) {
+void construct_arcs(const DiagramInput& in, const Subdivision& s, PreciseWaves& waves, const std::vector<DirectedLink>& links,
+                    std::vector<Arc>& arcs) {
   std::vector<std::uint32_t> owner(links.size());
   for (std::uint32_t i = 0; i < links.size(); ++i) {
     const Dart &left = s.darts[dart_beside(s, links[i], 0)], &right = s.darts[dart_beside(s, links[i], 1)];
     owner[i] = left.facet == right.facet ? left.facet : static_cast<std::uint32_t>(s.facets.size());
   }
   const ArcBuilder builder(in, s);
-  for_each_owner(in, s, owner, s.facets.size() + 1, [&](std::uint32_t i, FacetSpaces& spaces) {
-    if (owner[i] < s.facets.size()) builder.build(links[i], arcs[i], spaces);
+  for_each_owner(in, s, waves, owner, s.facets.size() + 1, [&](std::uint32_t i, PreciseNumbers& numbers) {
+    if (owner[i] < s.facets.size()) builder.build(links[i], arcs[i], numbers);
   });
-  FacetSpaces spaces(in, s);
+  PreciseNumbers numbers(in, s, waves);
   for (std::uint32_t i = 0; i < links.size(); ++i)
-    if (owner[i] == s.facets.size()) builder.build(links[i], arcs[i], spaces);
+    if (owner[i] == s.facets.size()) builder.build(links[i], arcs[i], numbers);
 }
 
 }  // namespace gvd::kernel::subdivision

@@ -18,7 +18,7 @@ using robust::Stage;
 struct EdgeJoiner::View {
   HalfedgeId h, twin;
   const Skeleton &left, &right;
-  SideView of_left, of_right;
+  const SideView &of_left, &of_right;
 };
 
 namespace {
@@ -146,7 +146,8 @@ bool EdgeJoiner::identical(const View& view, const Event& a, const Event& b) con
 bool EdgeJoiner::are_identical(HalfedgeId h, const Skeleton& left, const Skeleton& right) const {
   const HalfedgeId twin = in_.refined.twin(h);
   if (left.sides[h % 3].events.empty() && right.sides[twin % 3].events.empty()) return true;
-  const View view{h, twin, left, right, left.sides[h % 3], right.sides[twin % 3].reversed()};
+  reversed_.assign_reversed(right.sides[twin % 3]);
+  const View view{h, twin, left, right, left.sides[h % 3], reversed_};
   const auto is_essential = [](const Event& event) { return event.essential; };
   auto l = view.of_left.events.begin(), r = view.of_right.events.begin();
   for (;; ++l, ++r) {
@@ -213,7 +214,8 @@ EdgeJoiner::Order EdgeJoiner::compare(const View& view, std::size_t left_event, 
 
 Joint EdgeJoiner::join(HalfedgeId h, const Skeleton& left, const Skeleton& right) {
   const HalfedgeId twin = in_.refined.twin(h);
-  const View view{h, twin, left, right, left.sides[h % 3], right.sides[twin % 3].reversed()};
+  reversed_.assign_reversed(right.sides[twin % 3]);
+  const View view{h, twin, left, right, left.sides[h % 3], reversed_};
   std::vector<std::size_t> l, r;
   for (std::size_t i = 0; i < view.of_left.events.size(); ++i)
     if (view.of_left.events[i].essential) l.push_back(i);
@@ -262,7 +264,7 @@ bool EdgeJoiner::contradict(const View& view, std::span<const Piece> of_left, st
 std::optional<std::vector<std::size_t>> EdgeJoiner::inner_events(const View& view, bool of_left, std::size_t from, std::size_t to,
                                                                  Station* before, Station* behind) {
   const SideView& side = of_left ? view.of_left : view.of_right;
-  const auto index_of = [](const std::vector<Event>& events, std::uint32_t node) {
+  const auto index_of = [](std::span<const Event> events, std::uint32_t node) {
     return static_cast<std::size_t>(std::find_if(events.begin(), events.end(), [&](const Event& e) { return e.node == node; }) - events.begin());
   };
   const auto order_against = [&](std::size_t event, const Station* station) {

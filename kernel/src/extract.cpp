@@ -1,6 +1,7 @@
 #include "gvd/kernel/extract.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -20,6 +21,7 @@ class Extraction {
 
   Diagram run() {
     s_ = subdivide(in_, decisions_);
+    waves_.emplace(s_);
     chains_ = trace(in_, s_, all_decided(decisions_));
     for (const std::string& doubt : chains_.doubts) predicates::undecided(decisions_, predicates::Predicate::location, doubt);
     list_undecided_faces();
@@ -72,7 +74,7 @@ class Extraction {
       point_of_[p] = static_cast<std::uint32_t>(places.size());
       places.push_back(p);
     }
-    d_.points = construct_points(in_, s_, places, decisions_);
+    d_.points = construct_points(in_, s_, *waves_, places, decisions_);
   }
 
   /// Turns a closed chain so that it starts in its smallest break point, or smallest crossing if it has none.
@@ -113,7 +115,7 @@ class Extraction {
       }
       d_.edges.push_back(std::move(edge));
     }
-    construct_arcs(in_, s_, first_links, d_.arcs);
+    construct_arcs(in_, s_, *waves_, first_links, d_.arcs);
   }
 
   void make_ends() {
@@ -191,6 +193,7 @@ class Extraction {
   const DiagramInput& in_;
   predicates::Decisions& decisions_;
   Subdivision s_;
+  std::optional<PreciseWaves> waves_;
   Chains chains_;
   std::vector<std::uint32_t> point_of_;  // per place
   LinkArcs link_arcs_;

@@ -56,44 +56,43 @@ InputFrame<NT> input_frame(const Mesh& input, FaceId face, int bits) {
   return {length.scaled(unit), {x.scaled(unit), y.scaled(unit)}};
 }
 
-/// Maps points of a facet's frame (frame units) to the frame of the input face that it is a part of.
+/// Maps points of a facet's frame (frame units) to the frame of the input face that it is a part of: a turn, a factor and a shift.
 template <class NT>
 class FaceMap {
  public:
   using P = predicates::PlanePoint<NT>;
 
-  /// `apex`: that of the facet's frame.
-  FaceMap(const Mesh& input, const Mesh& refined, FaceId facet, const P& apex, int bits) : apex_(apex) {
+  /// `frame`: the facet's; null if it has none: then only `corner` is asked for. Pre: the face has been split, or there is a frame.
+  FaceMap(const Mesh& input, const Mesh& refined, FaceId facet, const predicates::FacetFrame<NT>* frame, int bits) {
+    using predicates::operator*, predicates::operator-;
     const FaceId face = refined.input_face(facet);
-    const InputFrame<NT> frame = input_frame<NT>(input, face, bits);
     for (std::uint32_t k = 0; k < 3; ++k) whole_ = whole_ && refined.origin(3 * facet + k) == input.origin(3 * face + k);
     if (whole_) {
-      corner_ = {P{NT(0.0), NT(0.0)}, P{frame.length, NT(0.0)}, frame.apex};
-      return;
+      corner_ = {P{NT(0.0), NT(0.0)}, P{frame->length, NT(0.0)}, frame->length * frame->apex};
+    } else {
+      const InputFrame<NT> whole = input_frame<NT>(input, face, bits);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto bary = barycentric_in_face(input, face, refined, refined.origin(3 * facet + k));
+        const NT b1 = robust::from<NT>(bary[1], bits), b2 = robust::from<NT>(bary[2], bits);
+        corner_[k] = {b1 * whole.length + b2 * whole.apex.x, b2 * whole.apex.y};
+      }
     }
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const auto bary = barycentric_in_face(input, face, refined, refined.origin(3 * facet + k));
-      const NT b1 = robust::from<NT>(bary[1], bits), b2 = robust::from<NT>(bary[2], bits);
-      corner_[k] = {b1 * frame.length + b2 * frame.apex.x, b2 * frame.apex.y};
-    }
+    turn_ = corner_[1] - corner_[0];
   }
 
-  /// Coordinates (b1, b2) of p with p = corner 0 + b1 (corner 1 - corner 0) + b2 (corner 2 - corner 0).
-  P affine(const P& p) const {
-    const NT b2 = p.y / apex_.y;
-    return {p.x - apex_.x * b2, b2};
-  }
   P operator()(const P& p) const {
-    if (whole_) return {p.x * corner_[1].x, p.y * corner_[1].x};
-    const P b = affine(p);
-    return corner_[0] + b.x * (corner_[1] - corner_[0]) + b.y * (corner_[2] - corner_[0]);
+    using predicates::operator*;
+    if (whole_) return turn_.x * p;
+    return {corner_[0].x + (p.x * turn_.x - p.y * turn_.y), corner_[0].y + (p.x * turn_.y + p.y * turn_.x)};
   }
   const P& corner(std::size_t k) const { return corner_[k]; }
+  /// What turns and stretches: corner(1) - corner(0).
+  const P& turn() const { return turn_; }
 
  private:
-  P apex_;
   bool whole_ = true;
   std::array<P, 3> corner_;
+  P turn_;
 };
 
 }  // namespace gvd::kernel

@@ -8,6 +8,7 @@
 #include "gvd/predicates/filter_error.hpp"
 #include "gvd/predicates/landing.hpp"
 #include "gvd/robust/rational.hpp"
+#include "window_images.hpp"
 
 namespace gvd::kernel {
 
@@ -267,14 +268,24 @@ const predicates::Site<FieldWaves::DD>& FieldWaves::site(std::size_t i, DD) {
   if (!p.dd_sites[i]) {
     const auto& first = resolution_.frames().in_double_double(3 * face);
     Unfolding<DoubleDouble> at;
-    if (sites[i].window != kNone) {
-      const auto* known = double_double_ == nullptr ? nullptr : double_double_->find(sites[i].window);
-      at = known != nullptr ? known->at : unfold_double_double(resolution_.frames(), strip(i));
-    }
+    if (sites[i].window != kNone) at = unfold_double_double(resolution_.frames(), strip(i));
     p.dd_sites[i] = std::make_unique<predicates::Site<DD>>(make_site<DoubleDouble>(
         sites[i], at, resolution_.distance(sites[i].root), first, predicates::unit<DoubleDouble>(0)));
   }
   return *p.dd_sites[i];
+}
+
+predicates::FacetFrame<FieldWaves::DD> FieldWaves::precise_frame() {
+  return make_frame<DoubleDouble>(resolution_.frames().in_double_double(3 * face), predicates::unit<DoubleDouble>(0));
+}
+
+predicates::PreciseWave FieldWaves::precise_wave(std::size_t i) {
+  const FacetSite& site = sites[i];
+  const auto& first = resolution_.frames().in_double_double(3 * face);
+  const DD& distance = resolution_.distance(site.root);
+  if (site.window == kNone) return predicates::wave_of_corner(site.corner, distance, first);
+  const auto* known = resolution_.images() == nullptr ? nullptr : resolution_.images()->find(site.window);
+  return predicates::wave_over_side(known != nullptr ? *known : unfold_double_double(resolution_.frames(), strip(i)).image, site.side, distance, first);
 }
 
 const predicates::FacetFrame<FieldWaves::M>& FieldWaves::frame(M, int bits) { return *at_bits(bits).frame; }

@@ -28,6 +28,8 @@ class FieldWaves final : public FacetWaves {
   const predicates::Site<F>& site(std::size_t i, F) override { return sites_[i]; }
   const predicates::FacetFrame<DD>& frame(DD) override;
   const predicates::Site<DD>& site(std::size_t i, DD) override;
+  predicates::FacetFrame<DD> precise_frame() override;
+  predicates::PreciseWave precise_wave(std::size_t i) override;
   const predicates::FacetFrame<M>& frame(M, int bits) override;
   const predicates::Site<M>& site(std::size_t i, M, int bits) override;
   const predicates::FacetFrame<robust::Exact>* exact_frame() override;
@@ -43,8 +45,6 @@ class FieldWaves final : public FacetWaves {
   bool are_proved_one_wave(std::size_t a, std::size_t b) override;
   bool are_mirror_images(std::size_t entering, std::size_t other) override;
   bool is_mirrored_at_cone_vertex(std::size_t parent, std::size_t end, std::size_t other, std::uint8_t side) override;
-  /// Windows in double-double that are known already; it may lack any. Null: none.
-  void use(const UnfoldedWindows<robust::DoubleDouble>* unfolded) { double_double_ = unfolded; }
   /// Gives back what only the MPFR stage needs.
   void forget_frames();
 
@@ -111,7 +111,6 @@ class FieldWaves final : public FacetWaves {
   std::vector<predicates::Site<F>> sites_;
   mutable std::vector<predicates::Strip> strips_;  ///< made on demand
   const UnfoldedWindows<double>* unfolded_;
-  const UnfoldedWindows<robust::DoubleDouble>* double_double_ = nullptr;
 
   /// What only few facets need.
   struct Precise {

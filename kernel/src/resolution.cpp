@@ -70,11 +70,14 @@ void Resolution::resolve(predicates::Decisions& decisions) {
   std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
     return field_.distance[a] != field_.distance[b] ? field_.distance[a] < field_.distance[b] : a < b;
   });
-  images_ = std::make_unique<WindowImages>(frames_, field_, windows_of_candidates());
+  images_ = std::make_unique<WindowImages>(frames_, field_);
+  add_images(windows_of_candidates());
   for (const VertexId v : order)
     while (labels_[v] == kNone) resolve_vertex(waits(v) ? first_of(cluster_of(v), decisions) : v, decisions);
-  images_.reset();
 }
+
+void Resolution::add_images(const std::vector<WindowId>& windows) { images_->add(windows); }
+void Resolution::forget_images() { images_.reset(); }
 
 /// Of those that doubles cannot tell from the nearest.
 std::vector<WindowId> Resolution::windows_of_candidates() const {

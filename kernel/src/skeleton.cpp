@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "gvd/kernel/error.hpp"
@@ -22,10 +23,19 @@ struct SiteSpoke {
 
 class Builder {
  public:
-  explicit Builder(const BoundaryFacet& facet) : tess_(*facet.tessellation), sites_(facet.waves->sites) {
-    skeleton_.face = facet.face;
-    skeleton_.waves = facet.waves;
-    skeleton_.tessellation = facet.tessellation;
+  Builder(const BoundaryFacet& facet, std::pmr::memory_resource& memory)
+      : tess_(*facet.tessellation),
+        sites_(facet.waves->sites),
+        skeleton_{.face = facet.face,
+                  .waves = facet.waves,
+                  .tessellation = facet.tessellation,
+                  .kept = std::pmr::vector<std::uint32_t>(&memory),
+                  .sides = {empty_side(memory), empty_side(memory), empty_side(memory)},
+                  .spokes = std::pmr::vector<Spoke>(&memory),
+                  .spokes_end = std::pmr::vector<std::uint32_t>(&memory)} {
+    skeleton_.kept.reserve(tess_.arcs.size());
+    skeleton_.spokes.reserve(2 * tess_.arcs.size());
+    skeleton_.spokes_end.reserve(tess_.nodes.size());
   }
 
   Skeleton build() {
@@ -38,17 +48,23 @@ class Builder {
   }
 
  private:
+  static SideView empty_side(std::pmr::memory_resource& memory) { return {std::pmr::vector<Piece>(&memory), std::pmr::vector<Event>(&memory)}; }
   LabelSetId labels(std::uint32_t site) const { return sites_[site].labels; }
 
   void collect_spokes() {
-    at_node_.resize(tess_.nodes.size());
-    for (std::uint32_t a = 0; a < tess_.arcs.size(); ++a) {
+    start_.assign(tess_.nodes.size() + 1, 0);
+    for (const auto& arc : tess_.arcs) ++start_[arc.from], ++start_[arc.to];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    by_node_.resize(2 * tess_.arcs.size());
+    for (auto a = static_cast<std::uint32_t>(tess_.arcs.size()); a-- > 0;) {
       const auto& arc = tess_.arcs[a];
-      if (labels(arc.left) != labels(arc.right)) skeleton_.kept.push_back(a);
-      at_node_[arc.from].push_back({{a, false}, arc.right, arc.left});
-      at_node_[arc.to].push_back({{a, true}, arc.left, arc.right});
+      by_node_[--start_[arc.to]] = {{a, true}, arc.left, arc.right};
+      by_node_[--start_[arc.from]] = {{a, false}, arc.right, arc.left};
     }
+    for (std::uint32_t a = 0; a < tess_.arcs.size(); ++a)
+      if (labels(tess_.arcs[a].left) != labels(tess_.arcs[a].right)) skeleton_.kept.push_back(a);
   }
+  std::span<SiteSpoke> at_node(std::uint32_t n) { return std::span(by_node_).subspan(start_[n], start_[n + 1] - start_[n]); }
 
   bool is_corner(std::uint32_t node) const { return node == TessPiece::kNoNode || tess_.nodes[node].kind == Node::Kind::corner; }
 
@@ -85,8 +101,8 @@ class Builder {
 
   /// Brings the arcs at node n into counter-clockwise order by their sites: each region has one sector at a node.
   void turn_round(std::uint32_t n) {
-    auto& spokes = at_node_[n];
-    skeleton_.spokes.emplace_back();
+    const std::span<SiteSpoke> spokes = at_node(n);
+    skeleton_.spokes_end.push_back(static_cast<std::uint32_t>(skeleton_.spokes.size()));
     const Node& node = tess_.nodes[n];
     if (node.kind == Node::Kind::corner) skeleton_.corner_node[node.where] = n;
     if (spokes.empty()) return;
@@ -98,17 +114,18 @@ class Builder {
       if (next == spokes.end()) not_a_subdivision(skeleton_.face, "arcs at a node do not follow one another");
       std::iter_swap(spokes.begin() + static_cast<std::ptrdiff_t>(turned), next);
       const SiteSpoke& spoke = spokes[turned];
-      if (labels(spoke.right) != labels(spoke.left)) skeleton_.spokes.back().push_back(spoke.spoke);
+      if (labels(spoke.right) != labels(spoke.left)) skeleton_.spokes.push_back(spoke.spoke);
       sector = spoke.left;
     }
     if (!are_one(sector, last)) not_a_subdivision(skeleton_.face, "arcs at a node do not close");
+    skeleton_.spokes_end.back() = static_cast<std::uint32_t>(skeleton_.spokes.size());
   }
 
   /// Whether two sites at a node stand for one sector.
   bool are_one(std::uint32_t a, std::uint32_t b) const { return a == b || (tess_.borders_only && labels(a) == labels(b)); }
 
   /// The sites in the first and the last sector of a node, counter-clockwise.
-  std::pair<std::uint32_t, std::uint32_t> outer_sectors(std::uint32_t n) const {
+  std::pair<std::uint32_t, std::uint32_t> outer_sectors(std::uint32_t n) {
     const Node& node = tess_.nodes[n];
     const SideView& side = skeleton_.sides[node.where % 3];
     if (node.kind == Node::Kind::corner)
@@ -118,13 +135,13 @@ class Builder {
         if (event.node == n) return {side.pieces[event.after].site, side.pieces[event.before].site};
       not_a_subdivision(skeleton_.face, "a node on a side is not on the outline");
     }
-    return {at_node_[n].front().right, at_node_[n].front().right};
+    return {at_node(n).front().right, at_node(n).front().right};
   }
 
   void mark_essential(SideView& side) const {
     for (Event& event : side.events) {
       event.essential =
-          side.pieces[event.before].labels != side.pieces[event.after].labels || !skeleton_.spokes[event.node].empty();
+          side.pieces[event.before].labels != side.pieces[event.after].labels || !skeleton_.spokes_at(event.node).empty();
     }
   }
 
@@ -133,30 +150,33 @@ class Builder {
       const LabelSetId first = skeleton_.sides[k].pieces.front().labels;
       const LabelSetId last = skeleton_.sides[(k + 2) % 3].pieces.back().labels;
       const std::uint32_t node = skeleton_.corner_node[k];
-      const bool arcs = node != kNone && !skeleton_.spokes[node].empty();
+      const bool arcs = node != kNone && !skeleton_.spokes_at(node).empty();
       if (first != last && !arcs) not_a_subdivision(skeleton_.face, "the label set changes in a corner without an arc");
     }
   }
 
   const FacetTessellation& tess_;
   const std::vector<FacetSite>& sites_;
-  std::vector<std::vector<SiteSpoke>> at_node_;
   Skeleton skeleton_;
+  // Arcs as they leave their nodes, node by node, in an order of their own at each.
+  std::array<std::byte, 2048> room_;
+  std::pmr::monotonic_buffer_resource scratch_{room_.data(), room_.size()};
+  std::pmr::vector<SiteSpoke> by_node_{&scratch_};
+  std::pmr::vector<std::uint32_t> start_{&scratch_};
 };
 
 }  // namespace
 
-SideView SideView::reversed() const {
-  SideView view;
-  view.pieces.reserve(pieces.size());
-  for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) view.pieces.push_back({piece->last_site, piece->labels, piece->site});
-  const auto count = static_cast<std::uint32_t>(pieces.size());
-  for (auto event = events.rbegin(); event != events.rend(); ++event)
-    view.events.push_back({event->node, count - 1 - event->after, count - 1 - event->before, event->essential});
-  return view;
+void SideView::assign_reversed(const SideView& view) {
+  pieces.clear();
+  events.clear();
+  for (auto piece = view.pieces.rbegin(); piece != view.pieces.rend(); ++piece) pieces.push_back({piece->last_site, piece->labels, piece->site});
+  const auto last = static_cast<std::uint32_t>(pieces.size() - 1);
+  for (auto event = view.events.rbegin(); event != view.events.rend(); ++event)
+    events.push_back({event->node, last - event->after, last - event->before, event->essential});
 }
 
-Skeleton make_skeleton(const BoundaryFacet& facet) { return Builder(facet).build(); }
+Skeleton make_skeleton(const BoundaryFacet& facet, std::pmr::memory_resource& memory) { return Builder(facet, memory).build(); }
 
 Skeleton make_uniform_skeleton(FaceId face, LabelSetId labels) {
   Skeleton skeleton;

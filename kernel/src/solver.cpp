@@ -132,6 +132,7 @@ class Solver {
   bool resolve_vertices() {
     s_.resolution = std::make_unique<Resolution>(*s_.frames, s_.field, s_.source_vertices, s_.label_sets);
     s_.resolution->resolve(s_.decisions);
+    if (!options_.diagram) s_.resolution->forget_images();
     for (SourceId i = 0; i < sources_.size(); ++i) {
       const VertexId v = s_.where.vertex[i];
       const auto& set = s_.label_sets[s_.resolution->labels(v)];
@@ -202,8 +203,8 @@ class Solver {
     return UnfoldedWindows<double>(*s_.frames, s_.field, wanted);
   }
 
-  /// The windows beside GVD arcs, whose points are wanted correctly rounded.
-  UnfoldedWindows<robust::DoubleDouble> unfold_beside_arcs() const {
+  /// Beside GVD arcs, whose points are wanted correctly rounded.
+  std::vector<WindowId> windows_beside_arcs() const {
     std::vector<WindowId> wanted;
     for (const BoundaryFacet& facet : facets_) {
       const auto& sites = facet.waves->sites;
@@ -213,7 +214,7 @@ class Solver {
           if (sites[site].window != kNone) wanted.push_back(sites[site].window);
       }
     }
-    return UnfoldedWindows<robust::DoubleDouble>(*s_.frames, s_.field, wanted);
+    return wanted;
   }
 
   bool tessellate_facets() {
@@ -257,16 +258,13 @@ class Solver {
     const auto as_far_along = [&](HalfedgeId h, const FacetSite& left, const FacetSite& right) {
       return are_as_far_along(*s_.resolution, h, left, right);
     };
-    const UnfoldedWindows<robust::DoubleDouble> unfolded = unfold_beside_arcs();
-    for (const auto& waves : waves_)
-      if (waves) waves->use(&unfolded);
+    s_.resolution->add_images(windows_beside_arcs());
     tbb::task_arena arena(threads_to_use());
     arena.execute([&] {
       s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, origin, as_far_along},
                            s_.decisions);
     });
-    for (const auto& waves : waves_)
-      if (waves) waves->use(nullptr);
+    s_.resolution->forget_images();
     return true;
   }
 

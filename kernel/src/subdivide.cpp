@@ -18,6 +18,7 @@ class Subdivider {
     check_uniform_faces();
     join_sides();
     make_vertex_places();
+    reserve_darts();
     for (std::uint32_t f = 0; f < s_.facets.size(); ++f) make_darts(f);
     pair_twins();
     make_links();
@@ -28,7 +29,9 @@ class Subdivider {
  private:
   void make_skeletons() {
     s_.facet_of.assign(mesh_.face_count(), kNone);
-    for (const FaceId f : faces_to_subdivide()) {
+    const std::vector<FaceId> faces = faces_to_subdivide();
+    s_.facets.reserve(faces.size());
+    for (const FaceId f : faces) {
       s_.facet_of[f] = static_cast<std::uint32_t>(s_.facets.size());
       const auto given =
           std::lower_bound(in_.facets.begin(), in_.facets.end(), f, [](const BoundaryFacet& a, FaceId b) { return a.face < b; });
@@ -43,7 +46,7 @@ class Subdivider {
 
   Skeleton checked_skeleton(const BoundaryFacet& facet) const {
     try {
-      return make_skeleton(facet);
+      return make_skeleton(facet, *s_.memory);
     } catch (const InternalError&) {
       if (all_decided(decisions_)) throw;
       return {.face = facet.face, .undecided = true};  // it is built on something undecided
@@ -58,7 +61,8 @@ class Subdivider {
         for (std::uint32_t k = 0; k < 3 && has_borders_only(s_.facets[f]); ++k) {
           const HalfedgeId h = 3 * s_.facets[f].face + k;
           const Skeleton* other = decided_facet(mesh_.twin(h));
-          if (other == nullptr || other->waves == nullptr || joiner_.are_identical(h, s_.facets[f], *other)) continue;
+          if (other == nullptr || other->waves == nullptr || (mesh_.twin(h) < h && has_borders_only(*other))) continue;  // asked from there
+          if (joiner_.are_identical(h, s_.facets[f], *other)) continue;
           complete(f);
           const std::uint32_t g = s_.facet_of[other->face];
           if (has_borders_only(*other)) complete(g);
@@ -192,6 +196,13 @@ class Subdivider {
 
   // ---- darts ----
 
+  void reserve_darts() {
+    std::size_t count = stations_.size();  // sides
+    for (const auto& stations : stations_) count += stations.size();
+    for (const Skeleton& facet : s_.facets) count += 2 * facet.kept.size();
+    s_.darts.reserve(count);
+  }
+
   void make_darts(std::uint32_t f) {
     if (s_.facets[f].undecided) return;
     const Skeleton& facet = s_.facets[f];
@@ -256,20 +267,18 @@ class Subdivider {
   std::uint32_t incoming(const Spoke& spoke) const { return arc_dart_[spoke.arc] + (spoke.reversed ? 0 : 1); }
 
   /// Links the darts that meet at a place of the outline: `in` arrives along a side, `out` leaves along a side, arcs stand between.
-  void link_at(std::uint32_t in, std::uint32_t out, const std::vector<Spoke>* spokes) {
+  void link_at(std::uint32_t in, std::uint32_t out, std::span<const Spoke> spokes) {
     std::uint32_t target = out;
-    if (spokes != nullptr) {
-      for (const Spoke& spoke : *spokes) {
-        s_.darts[incoming(spoke)].next = target;
-        target = outgoing(spoke);
-      }
+    for (const Spoke& spoke : spokes) {
+      s_.darts[incoming(spoke)].next = target;
+      target = outgoing(spoke);
     }
     s_.darts[in].next = target;
   }
 
   void link_outline(std::uint32_t f) {
     const Skeleton& facet = s_.facets[f];
-    const auto spokes_of = [&](std::uint32_t node) { return node == kNone ? nullptr : &facet.spokes[node]; };
+    const auto spokes_of = [&](std::uint32_t node) { return node == kNone ? std::span<const Spoke>() : facet.spokes_at(node); };
     for (std::uint32_t k = 0; k < 3; ++k) {
       std::uint32_t dart = side_first_[k];
       for (const Station& station : stations_[3 * f + k]) {
@@ -283,8 +292,8 @@ class Subdivider {
 
   void link_inner_nodes(const Skeleton& facet) {
     if (facet.tessellation == nullptr) return;
-    for (std::uint32_t n = 0; n < facet.spokes.size(); ++n) {
-      const auto& spokes = facet.spokes[n];
+    for (std::uint32_t n = 0; n < facet.spokes_end.size(); ++n) {
+      const std::span<const Spoke> spokes = facet.spokes_at(n);
       if (facet.tessellation->nodes[n].kind != FacetTessellation::Node::Kind::inside || spokes.empty()) continue;
       std::uint32_t target = outgoing(spokes.back());
       for (const Spoke& spoke : spokes) {

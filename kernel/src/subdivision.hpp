@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,9 +56,9 @@ struct Piece {
 
 /// What one facet shows on one of its sides, in the order of the half-edge: pieces.size() == events.size() + 1.
 struct SideView {
-  std::vector<Piece> pieces;
-  std::vector<Event> events;
-  SideView reversed() const;
+  std::pmr::vector<Piece> pieces;
+  std::pmr::vector<Event> events;
+  void assign_reversed(const SideView& view);
 };
 
 /// An arc as it leaves a node.
@@ -73,20 +74,27 @@ struct Skeleton {
   const FacetTessellation* tessellation = nullptr;
   LabelSetId only_label = kNone;      ///< if waves == nullptr
   bool undecided = false;             ///< no darts are made
-  std::vector<std::uint32_t> kept{};  ///< arcs between different label sets
+  std::pmr::vector<std::uint32_t> kept{};  ///< arcs between different label sets
   std::array<SideView, 3> sides{};
   std::array<std::uint32_t, 3> corner_node{kNone, kNone, kNone};
-  std::vector<std::vector<Spoke>> spokes{};  ///< per node: kept arcs counter-clockwise (on the outline: from the outgoing side)
+  std::pmr::vector<Spoke> spokes{};           ///< by node: kept arcs counter-clockwise (on the outline: from the outgoing side)
+  std::pmr::vector<std::uint32_t> spokes_end{};  ///< per node: where its own end
+
+  std::span<const Spoke> spokes_at(std::uint32_t node) const {
+    const std::uint32_t begin = node == 0 ? 0 : spokes_end[node - 1];
+    return std::span(spokes).subspan(begin, spokes_end[node] - begin);
+  }
 };
 
-/// Pre: the tessellation is not undecided. Throws InternalError if the tessellation is not a subdivision of the facet.
-Skeleton make_skeleton(const BoundaryFacet& facet);
+/// Its lists are in `memory`. Pre: the tessellation is not undecided. Throws InternalError if the tessellation is not a subdivision of the facet.
+Skeleton make_skeleton(const BoundaryFacet& facet, std::pmr::memory_resource& memory);
 Skeleton make_uniform_skeleton(FaceId face, LabelSetId labels);
 
 /// Whether `same(a, b)` holds for any sites a and b that the two given ones stand for.
 template <class Same>
 bool any_pair(const Skeleton& left, std::uint32_t left_site, const Skeleton& right, std::uint32_t right_site, const Same& same) {
   if (left.waves == nullptr || right.waves == nullptr) return false;
+  if (same(left.waves->sites[left_site], right.waves->sites[right_site])) return true;  // as a rule
   const auto& of_left = left.tessellation->representative;
   const auto& of_right = right.tessellation->representative;
   for (std::size_t i = 0; i < of_left.size(); ++i) {
@@ -140,6 +148,7 @@ class EdgeJoiner {
 
   const DiagramInput& in_;
   predicates::Decisions& decisions_;
+  mutable SideView reversed_;  // of the right facet of the edge at hand
 };
 
 /// A piece of a GVD edge inside one facet or along one edge. It runs along its dart; the twin dart lies on the other side.
@@ -156,6 +165,8 @@ struct LinkEnd {
 };
 
 struct Subdivision {
+  /// Where the small lists of the facets are; given back as a whole.
+  std::unique_ptr<std::pmr::monotonic_buffer_resource> memory = std::make_unique<std::pmr::monotonic_buffer_resource>();
   std::vector<Skeleton> facets;         ///< sorted by face
   std::vector<std::uint32_t> facet_of;  ///< per face of the refined mesh: index into `facets` or kNone
   std::vector<Place> places;

@@ -1,7 +1,5 @@
 #include "unfolded_windows.hpp"
 
-#include "gvd/robust/double_double.hpp"
-
 namespace gvd::kernel {
 
 template <class T>
@@ -46,6 +44,5 @@ typename UnfoldedWindows<T>::Entry UnfoldedWindows<T>::make(const Frames& frames
 }
 
 template class UnfoldedWindows<double>;
-template class UnfoldedWindows<robust::DoubleDouble>;
 
 }  // namespace gvd::kernel

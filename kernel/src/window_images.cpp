@@ -2,18 +2,18 @@
 
 namespace gvd::kernel {
 
-WindowImages::WindowImages(const Frames& frames, const DistanceField& field, const std::vector<WindowId>& wanted)
-    : frames_(frames), field_(field), slot_(field.windows.size(), kNone) {
+void WindowImages::add(const std::vector<WindowId>& wanted) {
   std::uint32_t count = 0;
-  for (const WindowId w : wanted) slot_[w] = 0;
+  for (const WindowId w : wanted)
+    if (slot_[w] == kNone) slot_[w] = kWanted;
   for (WindowId w = static_cast<WindowId>(slot_.size()); w-- > 0;) {
-    if (slot_[w] == kNone) continue;
+    if (slot_[w] != kWanted) continue;
     ++count;
-    if (const WindowId parent = field.windows[w].parent; parent != kNone) slot_[parent] = 0;
+    if (const WindowId parent = field_.windows[w].parent; parent != kNone && slot_[parent] == kNone) slot_[parent] = kWanted;
   }
-  images_.reserve(count);
+  images_.reserve(images_.size() + count);
   for (WindowId w = 0; w < slot_.size(); ++w) {
-    if (slot_[w] == kNone) continue;
+    if (slot_[w] != kWanted) continue;
     images_.push_back(from_parent(w));
     slot_[w] = static_cast<std::uint32_t>(images_.size() - 1);
   }

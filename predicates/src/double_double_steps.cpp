@@ -1,12 +1,6 @@
-// What is done most often in double-double, twice: for processors with fused multiply-add, and for those without, on which std::fma is a call.
-// Both are the same algorithms and correctly rounded, so they give the same numbers.
+#include "fused_multiply_add.hpp"
 #include "gvd/predicates/face_frames.hpp"
 #include "gvd/predicates/strip.hpp"
-
-#if defined(__x86_64__) && !defined(__FMA__) && defined(__GNUC__)
-#define GVD_CHOOSES_FMA 1
-#define GVD_FMA __attribute__((target("fma"), flatten))
-#endif
 
 namespace gvd::predicates {
 
@@ -31,10 +25,6 @@ inline void unfold_steps_here(Unfolding<DoubleDouble>& at, std::span<const Doubl
 }
 
 #ifdef GVD_CHOOSES_FMA
-bool has_fma() {
-  static const bool has = __builtin_cpu_supports("fma") != 0;
-  return has;
-}
 GVD_FMA Disc<DoubleDouble> cross_by_fma(const Disc<DoubleDouble>& z, const DoubleDoubleStep& step) { return cross_here(z, step); }
 template <bool kCone>
 GVD_FMA void unfold_steps_by_fma(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {

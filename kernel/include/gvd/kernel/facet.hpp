@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gvd/kernel/ids.hpp"
+#include "gvd/predicates/precise_points.hpp"
 #include "gvd/predicates/site.hpp"
 
 namespace gvd::kernel {
@@ -58,6 +59,9 @@ class FacetWaves {
   virtual const predicates::Site<F>& site(std::size_t i, F) = 0;
   virtual const predicates::FacetFrame<DD>& frame(DD) = 0;
   virtual const predicates::Site<DD>& site(std::size_t i, DD) = 0;
+  /// The same in double-double by value, and of a wave its image and weight alone: cheaper, for who asks once.
+  virtual predicates::FacetFrame<DD> precise_frame() { return frame(DD()); }
+  virtual predicates::PreciseWave precise_wave(std::size_t i) { return {site(i, DD()).image, site(i, DD()).weight}; }
   virtual const predicates::FacetFrame<M>& frame(M, int bits) = 0;
   virtual const predicates::Site<M>& site(std::size_t i, M, int bits) = 0;
   /// Null if there are no exact numbers at all. A site whose strip crosses too many square classes has undefined ones.

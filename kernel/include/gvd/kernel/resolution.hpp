@@ -53,6 +53,11 @@ class Resolution {
 
   /// Leaves only the winners (exactly tied) in the candidate lists of the field.
   void resolve(predicates::Decisions& decisions);
+  /// The images of windows in double-double that `resolve` made are kept for others, who may add to them, and give them back.
+  void add_images(const std::vector<WindowId>& windows);
+  void forget_images();
+  /// Null once they were given back; it may lack any.
+  const WindowImages* images() const noexcept { return images_.get(); }
 
   bool is_reached(VertexId v) const noexcept { return labels_[v] != kNone; }
   LabelSetId labels(VertexId v) const noexcept { return labels_[v]; }
@@ -143,7 +148,7 @@ class Resolution {
   };
   std::vector<Straightest> straightest_;  ///< per vertex, of the paths that tie there
   std::vector<robust::Ball<robust::DoubleDouble>> distance_;
-  std::unique_ptr<WindowImages> images_;  // while `resolve` runs
+  std::unique_ptr<WindowImages> images_;
   std::unique_ptr<ExactUnfoldings> exact_;
   mutable std::once_flag allocate_as_far_;
   mutable std::vector<std::atomic<std::uint8_t>> as_far_;  // per window: what `is_as_far` found

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+
+#include "gvd/predicates/double_wave.hpp"
+#include "gvd/predicates/enclosed_frame.hpp"
+#include "gvd/predicates/side_tie.hpp"
+
+/// The points of a facet's tessellation in double-double, each from a double that is known to be near: one step of Newton's iteration, whose residual is
+/// a ball, and a bound of what the step leaves (docs/error-bounds.md#points-in-double-double). Nothing is decided here: that the point exists, which of
+/// several it is, and how near it is, is known. By the processor's own fused multiply-add where it has one.
+namespace gvd::predicates {
+
+using DoubleDoubleBall = robust::Ball<robust::DoubleDouble>;
+using PrecisePoint = PlanePoint<DoubleDoubleBall>;
+
+/// A wave without its cone, in the frame of a facet.
+struct PreciseWave {
+  PrecisePoint image;
+  DoubleDoubleBall weight;  ///< frame units
+};
+
+/// A point of the plane, certainly within `radius` of `at`.
+struct NearPoint {
+  DoublePoint at;
+  double radius;
+};
+
+/// The wave of a window that is seen over side `side`, in the frame of the facet's first side `first`; `distance` is that of the root, in the unit of lengths.
+PreciseWave wave_over_side(const Disc<robust::DoubleDouble>& image, unsigned side, const DoubleDoubleBall& distance,
+                           const EdgeFrame<robust::DoubleDouble>& first);
+/// The wave of corner `corner`.
+PreciseWave wave_of_corner(unsigned corner, const DoubleDoubleBall& distance, const EdgeFrame<robust::DoubleDouble>& first);
+
+/// The point where three waves tie. Pre: it is there. Balls of infinite radius if the waves turn too little.
+PrecisePoint vertex_near(const PreciseWave& i, const PreciseWave& j, const PreciseWave& k, const NearPoint& start);
+/// The point of the ray from the image of `parent` through that of `relay`, beyond it, where relay and `other` tie. Pre: it is there.
+PrecisePoint ray_vertex_near(const PreciseWave& parent, const PreciseWave& relay, const PreciseWave& other, const NearPoint& start);
+/// The parameter of the point of a side where two waves tie. Pre: it is there, within `radius` of `start`.
+DoubleDoubleBall side_tie_near(const SideLine<DoubleDoubleBall>& side, const PreciseWave& from, const PreciseWave& to, double start, double radius);
+
+/// A facet's frame in space: p is at origin + p.x along + p.y across.
+struct FrameInSpace {
+  std::array<DoubleDoubleBall, 3> origin, along, across;
+};
+FrameInSpace frame_in_space(const std::array<std::array<DoubleDoubleBall, 3>, 3>& corner, const PrecisePoint& apex);
+std::array<DoubleDoubleBall, 3> in_space(const FrameInSpace& frame, const PrecisePoint& p);
+/// a + t (b - a).
+std::array<DoubleDoubleBall, 3> between(const std::array<DoubleDoubleBall, 3>& a, const std::array<DoubleDoubleBall, 3>& b, const DoubleDoubleBall& t);
+
+/// factor p.
+PrecisePoint multiple(const DoubleDoubleBall& factor, const PrecisePoint& p);
+/// base + turn p, as complex numbers.
+PrecisePoint turned_and_moved(const PrecisePoint& base, const PrecisePoint& turn, const PrecisePoint& p);
+
+}  // namespace gvd::predicates
