@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gvd/kernel/unfolding.hpp"
+
 namespace gvd::kernel {
 namespace {
 
@@ -208,9 +210,12 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
     return maybe_sign(numbers.sites[relay.site]->weight - numbers.sites[wave.site]->weight);
   };
   if (wave.root == relay.root || gap(ladder.filter()) || heavier(ladder.filter()) == Sign::negative) return false;
+  const auto is_open = [&](const auto& numbers) { return gap(numbers).value_or(Sign::zero) != Sign::zero; };
+  if (is_open(ladder.in_double_double())) return false;
   const std::array<std::uint32_t, 3> parts = {wave.site, wave.cone_site[0], wave.cone_site[1]};  // different ones if merged
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (std::find(parts.begin(), parts.begin() + i, parts[i]) == parts.begin() + i && waves_.is_own_relay(parts[i], relay.site)) return true;
+  if (is_open(ladder.in_mpfr(kBitsBeforeAlgebra))) return false;
   if (const auto closed = is_gap_closed_where_they_part(wave, relay)) return *closed;
   return ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return gap(numbers); }) == Sign::zero &&
          ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return heavier(numbers); }) == Sign::positive;

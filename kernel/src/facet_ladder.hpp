@@ -25,7 +25,7 @@ class FacetLadder {
   FacetLadder(FacetWaves& waves, predicates::Decisions& decisions) : waves_(waves), decisions_(decisions) {
     load_numbers(waves_, 0, filter_);
     doubles_.reserve(filter_.sites.size());
-    for (const auto* site : filter_.sites) doubles_.push_back(predicates::double_wave(*site));
+    for (std::size_t i = 0; i < filter_.sites.size(); ++i) doubles_.push_back(predicates::double_wave(*filter_.sites[i]));
   }
 
   FacetLadder(const FacetLadder&) = delete;
@@ -67,24 +67,33 @@ class FacetLadder {
   /// Calls visit(numbers, stage) for the stages beyond the filter, until it gives an answer.
   template <class Visit>
   auto for_each_stage(const Visit& visit) -> decltype(visit(std::declval<FacetNumbers<F>&>(), robust::Stage::filter)) {
-    if (!beyond_) beyond_ = std::make_unique<BeyondFilter>();
-    BeyondFilter& numbers = *beyond_;
-    if (numbers.double_double.frame == nullptr) load_numbers(waves_, 0, numbers.double_double);
-    if (auto answer = visit(numbers.double_double, robust::Stage::double_double)) return answer;
+    if (auto answer = visit(in_double_double(), robust::Stage::double_double)) return answer;
     // A tie more often than not: where the proof is cheap it is asked for before MPFR, else before the longest numbers.
     const bool exact_first = waves_.exact_is_cheap();
     if (exact_first) {
       if (auto exact = visit_exact(visit)) return exact;
     }
     for (const int bits : {128, 256, 512, 1024}) {
-      if (bits != numbers.bits) load_numbers(waves_, bits, numbers.mpfr);
-      numbers.bits = bits;
-      if (auto answer = visit(numbers.mpfr, robust::Stage::mpfr)) return answer;
+      if (auto answer = visit(in_mpfr(bits), robust::Stage::mpfr)) return answer;
       if (bits == 256 && !exact_first) {
         if (auto exact = visit_exact(visit)) return exact;
       }
     }
     return {};
+  }
+
+  /// The numbers of one stage, for questions that are put before the ladder's own.
+  const FacetNumbers<DD>& in_double_double() {
+    FacetNumbers<DD>& numbers = beyond().double_double;
+    if (numbers.frame == nullptr) load_numbers(waves_, 0, numbers);
+    return numbers;
+  }
+  /// Valid until other bits are asked for.
+  const FacetNumbers<M>& in_mpfr(int bits) {
+    BeyondFilter& numbers = beyond();
+    if (bits != numbers.bits) load_numbers(waves_, bits, numbers.mpfr);
+    numbers.bits = bits;
+    return numbers.mpfr;
   }
 
   bool failed() const { return failed_; }
@@ -96,12 +105,10 @@ class FacetLadder {
  private:
   template <class Visit>
   auto visit_exact(const Visit& visit) -> decltype(visit(std::declval<FacetNumbers<F>&>(), robust::Stage::filter)) {
-    BeyondFilter& numbers = *beyond_;
+    BeyondFilter& numbers = beyond();
     if (!numbers.exact_loaded) load_numbers(waves_, 0, numbers.exact);
     numbers.exact_loaded = true;
     if (numbers.exact.frame == nullptr) return {};
-    for (const auto* site : numbers.exact.sites)
-      if (site == nullptr) return {};
     return visit(numbers.exact, robust::Stage::algebra);
   }
 
@@ -119,6 +126,10 @@ class FacetLadder {
     FacetNumbers<Exact> exact;
     bool exact_loaded = false;
   };
+  BeyondFilter& beyond() {
+    if (!beyond_) beyond_ = std::make_unique<BeyondFilter>();
+    return *beyond_;
+  }
   std::unique_ptr<BeyondFilter> beyond_;
   bool failed_ = false;
 };

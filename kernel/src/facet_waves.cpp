@@ -310,7 +310,9 @@ const predicates::FacetFrame<Exact>* FieldWaves::exact_frame() {
 
 const predicates::Site<Exact>* FieldWaves::exact_site(std::size_t i) {
   exact_frame();
-  return &precise_->exact_sites[i];
+  auto& site = precise_->exact_sites[i];
+  if (!site) site = std::make_unique<predicates::Site<Exact>>(make_exact_site(sites[i]));
+  return site.get();
 }
 
 bool FieldWaves::exact_is_cheap() {
@@ -334,26 +336,27 @@ void FieldWaves::make_exact() {
   Precise& p = *precise_;
   const Frames& frames = resolution_.frames();
   const predicates::RootPoint apex = exact_apex(frames, 3 * face);
-  const Exact length = sqrt(Exact(frames.exact(face)->squared[0]));
   p.exact_frame = std::make_unique<predicates::FacetFrame<Exact>>();
   p.exact_frame->apex = {Exact(apex.x), Exact(apex.y)};
-  p.exact_frame->length = length.scaled(frames.scale());
-  p.exact_sites.reserve(sites.size());
-  for (const FacetSite& site : sites) p.exact_sites.push_back(exact_site(site, length));
+  p.exact_unit = sqrt(Exact(frames.exact(face)->squared[0]));
+  p.exact_frame->length = p.exact_unit.scaled(frames.scale());
+  p.exact_sites.resize(sites.size());
 }
 
-/// Numbers that are not to be had are undefined: their signs are empty.
+/// Numbers that are not to be had are undefined: their signs are empty. Most questions are about images alone, and distances are long sums.
 Exact FieldWaves::exact_weight(VertexId root, const Exact& unit) const {
-  const auto weight = resolution_.exact_distance(root);
-  return weight ? *weight / unit : Exact(std::numeric_limits<double>::quiet_NaN());
+  return Exact::deferred([&resolution = resolution_, root, unit] {
+    const auto weight = resolution.exact_distance(root);
+    return weight ? *weight / unit : Exact::undefined();
+  });
 }
 
-predicates::Site<Exact> FieldWaves::exact_site(const FacetSite& site, const Exact& length) const {
+predicates::Site<Exact> FieldWaves::make_exact_site(const FacetSite& site) const {
   const auto point = [](const predicates::RootPoint& z) { return PlanePoint<Exact>{Exact(z.x), Exact(z.y)}; };
   const Exact undefined(std::numeric_limits<double>::quiet_NaN());
   const PlanePoint<Exact> nowhere{undefined, undefined}, &apex = precise_->exact_frame->apex;
   predicates::Site<Exact> result;
-  result.weight = exact_weight(site.root, length);
+  result.weight = exact_weight(site.root, precise_->exact_unit);
   result.has_cone = site.window != kNone;
   if (!result.has_cone) {
     result.image = site.corner == 0   ? PlanePoint<Exact>{Exact(0.0), Exact(0.0)}

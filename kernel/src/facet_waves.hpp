@@ -72,11 +72,14 @@ class FieldWaves final : public FacetWaves {
   void add_corner(std::uint8_t k);
   using Sides = std::vector<HalfedgeId>;
   bool enclose_only_flat(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
-  predicates::Disc<robust::DoubleDouble> image_of(std::span<const HalfedgeId> sides) const;
-  bool have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
+  template <class T, class FrameOf>
+  predicates::Disc<T> image_of(std::span<const HalfedgeId> sides, const FrameOf& frame_of, double unit) const;
+  template <class T, class FrameOf>
+  bool have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b, const FrameOf& frame_of, double unit) const;
+  bool have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b);
   bool show_one_image(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
   bool show_last_common_side_alike(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
-  bool have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const;
+  bool have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b);
   std::uint8_t side_entered(std::span<const HalfedgeId> sides) const;
   predicates::StripProgram program_beyond(std::uint8_t side, std::span<const HalfedgeId> sides) const;
   bool show_mirror_images(std::uint8_t side, std::span<const HalfedgeId> entering, std::span<const HalfedgeId> other) const;
@@ -84,10 +87,10 @@ class FieldWaves final : public FacetWaves {
   std::optional<Sides> sides_since(WindowId strip, VertexId v) const;
   bool goes_on_as(WindowId strip, WindowId since, WindowId other) const;
   WindowId arrival(WindowId strip, VertexId v) const;
-  bool has_relay_on_strip(std::size_t parent, std::size_t relay) const;
+  bool has_relay_on_strip(std::size_t parent, std::size_t relay);
   bool comes_straight_through(VertexId nearer, VertexId farther, WindowId strip) const;
-  bool is_image_of_root(const Sides& way, std::size_t relay) const;
-  bool has_relay_on_other_way(std::size_t parent, std::size_t relay) const;
+  bool is_image_of_root(const Sides& way, std::size_t relay);
+  bool has_relay_on_other_way(std::size_t parent, std::size_t relay);
   std::optional<Sides> turn_about(HalfedgeId first, bool left, FaceId end) const;
   std::optional<Sides> way_about(const Candidate& way, VertexId v, bool left, FaceId end) const;
   void note_cone(FacetSite& site, const UnfoldedWindows<double>::Entry& unfolded) const;
@@ -100,9 +103,9 @@ class FieldWaves final : public FacetWaves {
   void make_exact();
   HalfedgeId common_side(std::span<const std::uint32_t> which, std::span<const WindowId> windows) const;
   bool step_back(std::vector<WindowId>& windows) const;
-  bool step_over_detours(std::vector<WindowId>& windows) const;
+  bool step_over_detours(std::vector<WindowId>& windows);
   robust::Exact exact_weight(VertexId root, const robust::Exact& unit) const;
-  predicates::Site<robust::Exact> exact_site(const FacetSite& site, const robust::Exact& length) const;
+  predicates::Site<robust::Exact> make_exact_site(const FacetSite& site) const;
 
   const Resolution& resolution_;
   const DistanceField& field_;
@@ -124,7 +127,8 @@ class FieldWaves final : public FacetWaves {
     std::map<int, AtBits> at_bits;
     std::optional<bool> one_class;
     std::unique_ptr<predicates::FacetFrame<robust::Exact>> exact_frame;
-    std::vector<predicates::Site<robust::Exact>> exact_sites;
+    robust::Exact exact_unit;  ///< the length of the first side in scaled units
+    std::vector<std::unique_ptr<predicates::Site<robust::Exact>>> exact_sites;
   };
   Precise& precise();
   Precise::AtBits& at_bits(int bits);

@@ -57,7 +57,7 @@ template <class T>
 std::array<T, 3> Frames::side(FaceId f, int k, int bits) const {
   const VertexId a = mesh_.origin(3 * f + static_cast<unsigned>(k)), b = mesh_.target(3 * f + static_cast<unsigned>(k));
   std::array<T, 3> result;
-  if (mesh_.is_representable(a) && mesh_.is_representable(b) && !std::is_same_v<T, Mpfr>) {
+  if (mesh_.is_representable(a) && mesh_.is_representable(b)) {
     const Point &p = mesh_.point(a), &q = mesh_.point(b);
     for (std::size_t i = 0; i < 3; ++i) {
       if constexpr (std::is_same_v<T, double>) {
@@ -65,6 +65,8 @@ std::array<T, 3> Frames::side(FaceId f, int k, int bits) const {
       } else if constexpr (std::is_same_v<T, DoubleDouble>) {
         const DoubleDouble d = robust::two_sum(q[i], -p[i]);
         result[i] = {robust::times_power_of_two(d.hi, -scale_), robust::times_power_of_two(d.lo, -scale_)};
+      } else {
+        result[i] = (Mpfr(q[i], bits) - Mpfr(p[i], bits)).scaled(-scale_);
       }
     }
     return result;

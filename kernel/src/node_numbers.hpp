@@ -15,7 +15,7 @@ FacetNumbers<NT> numbers_without_waves(FacetWaves& waves, int bits) {
   FacetNumbers<NT> numbers;
   numbers.frame = &frame_in<NT>(waves, bits);
   for (std::size_t k = 0; k < 3; ++k) numbers.side[k] = predicates::side_line(*numbers.frame, k);
-  numbers.sites.assign(waves.sites.size(), nullptr);
+  numbers.sites = SiteNumbers<NT>(waves.sites.size());
   return numbers;
 }
 
@@ -23,7 +23,7 @@ FacetNumbers<NT> numbers_without_waves(FacetWaves& waves, int bits) {
 template <class NT>
 void add_waves(FacetWaves& waves, const FacetTessellation::Node& node, int bits, FacetNumbers<NT>& numbers) {
   for (const std::uint32_t site : {node.defining[0], node.defining[1], node.defining[2], node.ray})
-    if (site != FacetTessellation::kNoSite) numbers.sites[site] = &site_in<NT>(waves, site, bits);
+    if (site != FacetTessellation::kNoSite) numbers.sites.set(site, site_in<NT>(waves, site, bits));
 }
 
 /// The parameter of a node along its side. Pre: node n lies on a side.

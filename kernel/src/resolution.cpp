@@ -32,6 +32,11 @@ namespace {
 constexpr std::size_t kMostLegs = 24;
 constexpr std::array<int, 4> kMpfrBits = {128, 256, 512, 1024};
 
+template <class T>
+bool may_vanish(const Ball<T>& x) {
+  return maybe_sign(x).value_or(robust::Sign::zero) == robust::Sign::zero;
+}
+
 }  // namespace
 
 LabelSetId LabelSets::intern(std::vector<SourceId> sorted) {
@@ -344,6 +349,7 @@ std::optional<Exact> Resolution::exact_distance(VertexId v) const {
 
 bool Resolution::have_equal_distances(VertexId a, VertexId b) const {
   if (a == b) return true;
+  if (!may_vanish(distance_[a] - distance_[b]) || !may_vanish(distance(a, kBitsBeforeAlgebra) - distance(b, kBitsBeforeAlgebra))) return false;
   const auto path_to = [&](VertexId v) { return exact_path(field_.candidates[field_.first_candidate[v]], v); };
   const auto to_a = path_to(a), to_b = path_to(b);
   return to_a && to_b && compare(*to_a, *to_b) == robust::Sign::zero;
@@ -426,10 +432,6 @@ bool Resolution::attains_along_edge(VertexId via, VertexId v) const noexcept {
   return false;
 }
 
-namespace {
-bool may_vanish(const Ball<DoubleDouble>& x) { return maybe_sign(x).value_or(robust::Sign::zero) == robust::Sign::zero; }
-}  // namespace
-
 /// Not from the images that `resolve` keeps. Pre: v is not the source itself.
 Ball<DoubleDouble> Resolution::enclosed_leg(const Candidate& c, VertexId v) const {
   const auto frame_of = [&](HalfedgeId h) -> const auto& { return frames_.in_double_double(h); };
@@ -465,6 +467,7 @@ bool Resolution::proves_as_far(WindowId window, VertexId v) const {
   for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next) {
     const Candidate& other = field_.candidates[c];
     if (other.via != through.via || !may_vanish(enclosed - enclosed_leg(other, v))) continue;
+    if (!may_vanish(leg(through, v, kBitsBeforeAlgebra) - leg(other, v, kBitsBeforeAlgebra))) continue;
     if (has_long_image(window) && are_equal(strip_of_leg(through), strip_of_leg(other))) return true;
     if (are_equal(leg_of(through), leg_of(other))) return true;
   }

@@ -211,8 +211,8 @@ bool BisectorVertices::settle_where_they_part(const Triple& t) {
     const auto sites = contenders_.where_they_part(waves);
     if (sites.empty()) continue;
     FacetNumbers<robust::Exact> numbers;
-    numbers.sites.assign(waves_.sites.size(), nullptr);
-    for (std::size_t n = 0; n < waves.size(); ++n) numbers.sites[waves[n]] = &sites[n];
+    numbers.sites = SiteNumbers<robust::Exact>(waves_.sites.size());
+    for (std::size_t n = 0; n < waves.size(); ++n) numbers.sites.set(waves[n], sites[n]);
     const auto vertex = construct(numbers, t);
     if (vertex.existence == Existence::impossible) {
       ladder_.count(predicate_of(what), Stage::algebra);

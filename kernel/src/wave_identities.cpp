@@ -11,6 +11,7 @@ using predicates::Strip;
 using robust::Ball;
 using robust::DoubleDouble;
 using robust::Exact;
+using robust::Mpfr;
 
 /// Two ways from one root to this facet. Wherever they part, until they meet again, the vertices on the right of one must be those
 /// on the left of the other: then the ways enclose nothing else. Round flat vertices alone, either way unfolds the root to one
@@ -104,33 +105,43 @@ bool FieldWaves::are_proved_one_wave(std::size_t a, std::size_t b) {
   return have_one_image_by_algebra(sides_of(strip(a)), sides_of(strip(b)));
 }
 
-/// The image of a strip's root, in the frame of the last side as the facet beyond it sees it.
-Disc<DoubleDouble> FieldWaves::image_of(std::span<const HalfedgeId> sides) const {
-  const Frames& frames = resolution_.frames();
-  const double unit = predicates::unit<DoubleDouble>(0);
-  Disc<DoubleDouble> image = predicates::unfold_first(frames.in_double_double(sides[0]), unit).image;
+/// The image of a strip's root, in the frame of the last side as the facet beyond it sees it. `frame_of` gives EdgeFrame<T>.
+template <class T, class FrameOf>
+Disc<T> FieldWaves::image_of(std::span<const HalfedgeId> sides, const FrameOf& frame_of, double unit) const {
+  Disc<T> image = predicates::unfold_first<T>(frame_of(sides[0]), unit).image;
   for (std::size_t i = 1; i < sides.size(); ++i) {
-    const bool left = sides[i] == Mesh::prev(frames.mesh().twin(sides[i - 1]));
-    image = predicates::cross(image, frames.in_double_double(sides[i]), left, unit);
+    const bool left = sides[i] == Mesh::prev(resolution_.frames().mesh().twin(sides[i - 1]));
+    image = predicates::cross(image, frame_of(sides[i]), left, unit);
   }
   return image;
 }
 
-/// Whether double-doubles tell the images apart. As in `show_one_image`.
-bool FieldWaves::have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+/// Whether numbers of type T tell the images apart. As in `show_one_image`.
+template <class T, class FrameOf>
+bool FieldWaves::have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b, const FrameOf& frame_of, double unit) const {
   const auto certainly_differ = [](const auto& x, const auto& y) { return maybe_sign(x - y).value_or(robust::Sign::zero) != robust::Sign::zero; };
-  const Disc<DoubleDouble> of_a = image_of(a);
-  Disc<DoubleDouble> of_b = image_of(b);
+  const Disc<T> of_a = image_of<T>(a, frame_of, unit);
+  Disc<T> of_b = image_of<T>(b, frame_of, unit);
   if (a.back() == b.back()) return certainly_differ(ball_x(of_a), ball_x(of_b)) || certainly_differ(ball_y(of_a), ball_y(of_b));
   const std::uint8_t side = side_entered(a);
   const bool left = side == (side_entered(b) + 2) % 3;
-  of_b = predicates::cross(of_b, resolution_.frames().in_double_double(3 * face + side), left, predicates::unit<DoubleDouble>(0));
-  const Ball<DoubleDouble> one(1.0);
+  of_b = predicates::cross(of_b, frame_of(3 * face + side), left, unit);
+  const Ball<T> one(1.0);
   return certainly_differ(one - ball_x(of_a), ball_x(of_b)) || certainly_differ(-ball_y(of_a), ball_y(of_b));
 }
 
+/// By numbers, of which these many bits cost far less than algebra.
+bool FieldWaves::have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) {
+  const Frames& frames = resolution_.frames();
+  const auto in_double_double = [&](HalfedgeId h) -> const auto& { return frames.in_double_double(h); };
+  if (have_images_apart<DoubleDouble>(a, b, in_double_double, predicates::unit<DoubleDouble>(0))) return true;
+  MpfrFrames& known = at_bits(kBitsBeforeAlgebra).frames;
+  const auto in_mpfr = [&](HalfedgeId h) -> const auto& { return known(frames, h, kBitsBeforeAlgebra); };
+  return have_images_apart<Mpfr>(a, b, in_mpfr, predicates::unit<Mpfr>(kBitsBeforeAlgebra));
+}
+
 /// Through two ways that end in this facet, or over one side.
-bool FieldWaves::have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
+bool FieldWaves::have_one_image_by_algebra(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) {
   while (a.size() > 1 && b.size() > 1 && a.back() == b.back() && a[a.size() - 2] == b[b.size() - 2])  // from there on they are one way
     a = a.first(a.size() - 1), b = b.first(b.size() - 1);
   return !have_images_apart(a, b) && (show_one_image(a, b) || show_last_common_side_alike(a, b));
@@ -213,7 +224,7 @@ bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
 }
 
 /// Whether the parent's strip turns about the relay, which it arrives at by the nearest way, and then sees it where the relay's own strip does.
-bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const {
+bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) {
   const VertexId v = sites[relay].root;
   const WindowId turn = last_turn(sites[parent].window, v);
   if (turn == kNone) return false;
@@ -226,7 +237,7 @@ bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) const
 
 /// Whether the relay's image is that of its root by another way, which ends in this facet: the same way, or one with only flat vertices between, or by
 /// algebra.
-bool FieldWaves::is_image_of_root(const Sides& way, std::size_t relay) const {
+bool FieldWaves::is_image_of_root(const Sides& way, std::size_t relay) {
   if (way.empty() || sites[relay].window == kNone) return way.empty() && sites[relay].window == kNone;
   const Sides own = sides_of(strip(relay));
   return way == own || enclose_only_flat(way, own) || have_one_image_by_algebra(way, own);
@@ -288,7 +299,7 @@ std::optional<FieldWaves::Sides> FieldWaves::way_about(const Candidate& way, Ver
 }
 
 /// The same where the parent's image is that of the way through the relay: because they have only flat vertices between them, or by algebra.
-bool FieldWaves::has_relay_on_other_way(std::size_t parent, std::size_t relay) const {
+bool FieldWaves::has_relay_on_other_way(std::size_t parent, std::size_t relay) {
   const VertexId v = sites[relay].root;
   const Sides own = sides_of(strip(parent));
   const Sides rest = sites[relay].window == kNone ? Sides{} : sides_of(strip(relay));
@@ -331,7 +342,7 @@ bool FieldWaves::step_back(std::vector<WindowId>& windows) const {
 
 /// Goes back to the last side, before those where they are, that the strips of all cross, if every strip sees its root from there where the first one's way
 /// would show it. False if there is no such side.
-bool FieldWaves::step_over_detours(std::vector<WindowId>& windows) const {
+bool FieldWaves::step_over_detours(std::vector<WindowId>& windows) {
   const Mesh& mesh = resolution_.frames().mesh();
   if (std::find(windows.begin(), windows.end(), kNone) != windows.end()) return false;
   const auto crossing = [&](WindowId w, HalfedgeId h) {

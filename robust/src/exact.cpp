@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <unordered_map>
 #include <variant>
 #include <vector>
@@ -24,14 +25,25 @@ struct Expression {
   NodePtr left, right;  // right is empty for negate and root
 };
 
+struct Deferred {
+  std::function<Exact()> make;
+};
+
 }  // namespace
 
-/// A vertex of an expression graph. Immutable but for the remembered sign, which is the same whoever computes it.
+/// A vertex of an expression graph. Immutable but for what is remembered, which is the same whoever computes it. Only an Exact that was not used yet
+/// refers to a deferred one, never another node.
 class Exact::Node {
  public:
   explicit Node(RootSum value);
   explicit Node(Expression expression);
+  explicit Node(Deferred deferred) : what_(std::move(deferred)) {}
 
+  bool is_deferred() const { return std::holds_alternative<Deferred>(what_); }
+  const Exact& made() const {
+    std::call_once(make_, [&] { made_ = std::get<Deferred>(what_).make(); });
+    return made_;
+  }
   const RootSum* sum() const { return std::get_if<RootSum>(&what_); }
   const Expression& expression() const { return std::get<Expression>(what_); }
   MaybeSign sign() const;
@@ -40,8 +52,10 @@ class Exact::Node {
   MaybeSign decide_sign() const;
 
   static constexpr signed char kUnknown = 2, kOutOfReach = 3;
-  std::variant<RootSum, Expression> what_;
+  std::variant<RootSum, Expression, Deferred> what_;
   mutable std::atomic<signed char> sign_ = kUnknown;
+  mutable std::once_flag make_;
+  mutable Exact made_ = Exact(NodePtr());
 };
 
 namespace {
@@ -210,53 +224,57 @@ Exact::Exact(double x) : node_(std::isfinite(x) ? make(RootSum(mpq_class(x))) : 
 Exact::Exact(const mpq_class& q) : node_(make(RootSum(q))) {}
 Exact::Exact(RootSum sum) : node_(make(std::move(sum))) {}
 
+Exact Exact::deferred(std::function<Exact()> make) { return Exact(std::make_shared<const Node>(Deferred{std::move(make)})); }
+
+const NodePtr& Exact::node() const { return node_ && node_->is_deferred() ? node_->made().node() : node_; }
+
 Exact operator-(const Exact& a) {
-  if (!a.node_) return a;
-  if (const RootSum* leaf = a.node_->sum()) return Exact(make(-*leaf));
-  return Exact(make(Operation::negate, a.node_));
+  if (!a.node()) return a;
+  if (const RootSum* leaf = a.node()->sum()) return Exact(make(-*leaf));
+  return Exact(make(Operation::negate, a.node()));
 }
 
 Exact operator+(const Exact& a, const Exact& b) {
-  if (!a.node_ || !b.node_) return Exact(NodePtr());
-  if (is_plain_zero(a.node_)) return b;
-  if (is_plain_zero(b.node_)) return a;
-  if (a.node_->sum() && b.node_->sum()) return Exact(make(*a.node_->sum() + *b.node_->sum()));
-  return Exact(make(Operation::add, a.node_, b.node_));
+  if (!a.node() || !b.node()) return Exact(NodePtr());
+  if (is_plain_zero(a.node())) return b;
+  if (is_plain_zero(b.node())) return a;
+  if (a.node()->sum() && b.node()->sum()) return Exact(make(*a.node()->sum() + *b.node()->sum()));
+  return Exact(make(Operation::add, a.node(), b.node()));
 }
 
 Exact operator-(const Exact& a, const Exact& b) {
-  if (!a.node_ || !b.node_) return Exact(NodePtr());
-  if (a.node_ == b.node_) return Exact();
-  if (is_plain_zero(b.node_)) return a;
-  if (a.node_->sum() && b.node_->sum()) return Exact(make(*a.node_->sum() - *b.node_->sum()));
-  return Exact(make(Operation::subtract, a.node_, b.node_));
+  if (!a.node() || !b.node()) return Exact(NodePtr());
+  if (a.node() == b.node()) return Exact();
+  if (is_plain_zero(b.node())) return a;
+  if (a.node()->sum() && b.node()->sum()) return Exact(make(*a.node()->sum() - *b.node()->sum()));
+  return Exact(make(Operation::subtract, a.node(), b.node()));
 }
 
 Exact operator*(const Exact& a, const Exact& b) {
-  if (!a.node_ || !b.node_) return Exact(NodePtr());
-  if (is_plain_zero(a.node_)) return a;
-  if (is_plain_zero(b.node_)) return b;
-  if (const RootSum *x = a.node_->sum(), *y = b.node_->sum(); x && y && is_short_product(*x, *y)) return Exact(make(*x * *y));
-  return Exact(make(Operation::multiply, a.node_, b.node_));
+  if (!a.node() || !b.node()) return Exact(NodePtr());
+  if (is_plain_zero(a.node())) return a;
+  if (is_plain_zero(b.node())) return b;
+  if (const RootSum *x = a.node()->sum(), *y = b.node()->sum(); x && y && is_short_product(*x, *y)) return Exact(make(*x * *y));
+  return Exact(make(Operation::multiply, a.node(), b.node()));
 }
 
 Exact operator/(const Exact& a, const Exact& b) {
-  if (!a.node_ || !b.node_) return Exact(NodePtr());
-  const MaybeSign sign = b.node_->sign();
+  if (!a.node() || !b.node()) return Exact(NodePtr());
+  const MaybeSign sign = b.node()->sign();
   if (!sign || *sign == Sign::zero) return Exact(NodePtr());
-  if (is_plain_zero(a.node_)) return a;
-  if (const RootSum *x = a.node_->sum(), *y = b.node_->sum(); x && y && is_short_product(*x, *y))
+  if (is_plain_zero(a.node())) return a;
+  if (const RootSum *x = a.node()->sum(), *y = b.node()->sum(); x && y && is_short_product(*x, *y))
     if (const auto divisor = inverse(*y)) return Exact(make(*x * *divisor));
-  return Exact(make(Operation::divide, a.node_, b.node_));
+  return Exact(make(Operation::divide, a.node(), b.node()));
 }
 
 Exact sqrt(const Exact& a) {
   const MaybeSign sign = maybe_sign(a);
   if (!sign || *sign == Sign::negative) return Exact(NodePtr());
   if (*sign == Sign::zero) return Exact();
-  if (const RootSum* leaf = a.node_->sum())
+  if (const RootSum* leaf = a.node()->sum())
     if (auto root = square_root(*leaf)) return Exact(make(std::move(*root)));
-  return Exact(make(Operation::root, a.node_));
+  return Exact(make(Operation::root, a.node()));
 }
 
 Exact abs(const Exact& a) {
@@ -267,31 +285,31 @@ Exact abs(const Exact& a) {
 
 Exact Exact::scaled(int k) const { return *this * Exact(power_of_two(k)); }
 
-MaybeSign maybe_sign(const Exact& a) { return a.node_ ? a.node_->sign() : std::nullopt; }
+MaybeSign maybe_sign(const Exact& a) { return a.node() ? a.node()->sign() : std::nullopt; }
 
 std::optional<double> rounded(const Exact& a) {
   if (!maybe_sign(a)) return std::nullopt;
-  return correctly_rounded([&](int bits) { return *narrow_interval(*a.node_, bits); },
+  return correctly_rounded([&](int bits) { return *narrow_interval(*a.node(), bits); },
                            [&](const mpq_class& q) { return maybe_sign(a - Exact(q)); });
 }
 
 Ball<Mpfr> Exact::enclosure(int bits) const {
-  if (node_)
-    if (const auto interval = narrow_interval(*node_, bits)) return interval->to_ball();
+  if (node())
+    if (const auto interval = narrow_interval(*node(), bits)) return interval->to_ball();
   return {Mpfr(0.0, bits), std::numeric_limits<double>::infinity()};
 }
 
 std::optional<std::pair<mpq_class, mpq_class>> Exact::bounds(int bits) const {
   if (const auto value = rational()) return std::pair{*value, *value};
-  if (!node_) return std::nullopt;
-  const auto interval = narrow_interval(*node_, bits);
+  if (!node()) return std::nullopt;
+  const auto interval = narrow_interval(*node(), bits);
   if (!interval) return std::nullopt;
   return std::pair{interval->low().to_mpq(), interval->high().to_mpq()};
 }
 
 std::optional<mpq_class> Exact::rational() const {
-  if (!node_ || !node_->sum() || !node_->sum()->terms().empty()) return std::nullopt;
-  return node_->sum()->constant();
+  if (!node() || !node()->sum() || !node()->sum()->terms().empty()) return std::nullopt;
+  return node()->sum()->constant();
 }
 
 template <>

@@ -54,7 +54,7 @@ std::optional<mpq_class> rational_square_root(const mpq_class& q) {
 bool same_square_class(const mpq_class& a, const mpq_class& b) { return sgn(a) == sgn(b) && is_square(a * b); }
 
 bool is_non_residue(const mpz_class& n, std::uint64_t p) {
-  if (mpz_divisible_ui_p(n.get_mpz_t(), p) == 0) return mpz_kronecker_ui(n.get_mpz_t(), p) < 0;
+  if (const int symbol = mpz_kronecker_ui(n.get_mpz_t(), p); symbol != 0) return symbol < 0;
   mpz_class rest;
   mpz_remove(rest.get_mpz_t(), n.get_mpz_t(), mpz_class(p).get_mpz_t());
   return mpz_kronecker_ui(rest.get_mpz_t(), p) < 0;
@@ -62,9 +62,10 @@ bool is_non_residue(const mpz_class& n, std::uint64_t p) {
 
 std::uint64_t square_class_signature(const mpq_class& q) {
   const mpz_class n = q.get_num() * q.get_den();
+  constexpr std::size_t kSymbols = 32;
   const auto& primes = signature_primes();
   std::uint64_t signature = 0;
-  for (std::size_t i = 0; i < primes.size(); ++i) signature |= std::uint64_t{is_non_residue(n, primes[i])} << i;
+  for (std::size_t i = 0; i < kSymbols; ++i) signature |= std::uint64_t{is_non_residue(n, primes[i])} << i;
   return signature;
 }
 

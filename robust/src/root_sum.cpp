@@ -74,13 +74,44 @@ RootSum& RootSum::operator*=(const mpq_class& factor) {
   return *this;
 }
 
-RootSum operator*(const RootSum& a, const RootSum& b) {
-  RootSum product = a * b.constant_;
-  for (const auto& y : b.terms_) {
-    if (sgn(a.constant_) != 0) product.add_class(a.constant_ * y.coefficient, y.radicand, y.signature);
-    for (const auto& x : a.terms_) product.add_product(x, y);
+namespace {
+
+/// The least common denominator of all coefficients.
+mpz_class common_denominator(const RootSum& x) {
+  mpz_class result = x.constant().get_den();
+  for (const auto& term : x.terms())
+    if (term.coefficient.get_den() != result) result = lcm(result, term.coefficient.get_den());
+  return result;
+}
+
+/// q times a multiple of its denominator.
+mpq_class whole_multiple(const mpq_class& q, const mpz_class& multiple) {
+  mpq_class result(q.get_num());
+  if (multiple != q.get_den()) {
+    mpz_class factor;
+    mpz_divexact(factor.get_mpz_t(), multiple.get_mpz_t(), q.get_den_mpz_t());
+    result.get_num() *= factor;
   }
-  return product;
+  return result;
+}
+
+}  // namespace
+
+/// Of whole coefficients, so that common factors are looked for once a coefficient and not once a product.
+RootSum operator*(const RootSum& a, const RootSum& b) {
+  const auto whole = [](const RootSum& x, const mpz_class& multiple) {
+    RootSum result(whole_multiple(x.constant_, multiple));
+    for (const auto& term : x.terms_) result.terms_.push_back({whole_multiple(term.coefficient, multiple), term.radicand, term.signature});
+    return result;
+  };
+  const mpz_class denominator_a = common_denominator(a), denominator_b = common_denominator(b);
+  const RootSum of_a = whole(a, denominator_a), of_b = whole(b, denominator_b);
+  RootSum product = of_a * of_b.constant_;
+  for (const auto& y : of_b.terms_) {
+    if (sgn(of_a.constant_) != 0) product.add_class(of_a.constant_ * y.coefficient, y.radicand, y.signature);
+    for (const auto& x : of_a.terms_) product.add_product(x, y);
+  }
+  return product *= mpq_class(1, denominator_a * denominator_b);
 }
 
 void RootSum::add_product(const Term& x, const Term& y) {

@@ -213,4 +213,21 @@ TEST(Exact, NumbersMoveBetweenThreads) {
 }
 
 }  // namespace
+TEST(Exact, DeferredNumbersAreMadeOnceAndOnlyIfNeeded) {
+  int made = 0;
+  const Exact x = Exact::deferred([&made] {
+    ++made;
+    return sqrt(Exact(2.0));
+  });
+  const Exact copy = x;
+  EXPECT_EQ(made, 0);
+  EXPECT_EQ(maybe_sign(x * copy - Exact(2.0)), Sign::zero);
+  EXPECT_EQ(maybe_sign(copy), Sign::positive);
+  EXPECT_TRUE(x.is_defined());
+  EXPECT_EQ(made, 1);
+  const Exact nothing = Exact::deferred([] { return Exact::undefined(); });
+  EXPECT_FALSE(nothing.is_defined());
+  EXPECT_EQ(maybe_sign(nothing + x), std::nullopt);
+}
+
 }  // namespace gvd::robust::test

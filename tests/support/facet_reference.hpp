@@ -30,7 +30,8 @@ class FacetReference {
     kernel::FacetNumbers<kernel::FacetWaves::M> numbers;
     kernel::load_numbers(waves, 256, numbers);
     corner_ = {Point{0, 0}, Point{1, 0}, point(numbers.frame->apex)};
-    for (const auto* s : numbers.sites) {
+    for (std::size_t i = 0; i < numbers.sites.size(); ++i) {
+      const auto* s = numbers.sites[i];
       Wave w;
       w.image = point(s->image);
       w.weight = real(s->weight);

@@ -8,37 +8,63 @@
 
 namespace gvd::kernel {
 
-/// The numbers of a facet's waves in one number type. `sites` has a null pointer where a number type has nothing to offer (Exact only).
+/// The sites of a facet in one number type. Those that hardly any facet needs are asked for when they are first looked at.
+template <class NT>
+class SiteNumbers {
+ public:
+  using Site = predicates::Site<NT>;
+
+  SiteNumbers() = default;
+  /// None yet.
+  explicit SiteNumbers(std::size_t n) : known_(n, nullptr) {}
+  /// All of a facet. Filters look at all of them anyhow.
+  SiteNumbers(FacetWaves& waves, int bits) : known_(waves.sites.size(), nullptr), waves_(&waves), bits_(bits) {
+    if constexpr (std::is_same_v<NT, FacetWaves::F>)
+      for (std::size_t i = 0; i < known_.size(); ++i) known_[i] = ask(i);
+  }
+
+  std::size_t size() const noexcept { return known_.size(); }
+  const Site* operator[](std::size_t i) const {
+    if (known_[i] == nullptr && waves_ != nullptr) known_[i] = ask(i);
+    return known_[i];
+  }
+  void set(std::size_t i, const Site& site) { known_[i] = &site; }
+
+ private:
+  const Site* ask(std::size_t i) const {
+    if constexpr (std::is_same_v<NT, robust::Exact>)
+      return waves_->exact_site(i);
+    else if constexpr (std::is_same_v<NT, FacetWaves::M>)
+      return &waves_->site(i, NT(), bits_);
+    else
+      return &waves_->site(i, NT());
+  }
+
+  mutable std::vector<const Site*> known_;
+  FacetWaves* waves_ = nullptr;
+  int bits_ = 0;
+};
+
+/// The numbers of a facet's waves in one number type. Used by one thread at a time.
 template <class NT>
 struct FacetNumbers {
   const predicates::FacetFrame<NT>* frame = nullptr;
-  std::vector<const predicates::Site<NT>*> sites;
+  SiteNumbers<NT> sites;
   std::array<predicates::SideLine<NT>, 3> side;
 };
 
-/// Asks for the numbers in NT (`bits` for Mpfr only). The result is valid as long as the references of `waves` are.
+/// The numbers in NT (`bits` for Mpfr only). The result is valid as long as the references of `waves` are.
 /// For Exact, `frame` is null if the facet has no exact numbers.
 template <class NT>
 void load_numbers(FacetWaves& waves, int bits, FacetNumbers<NT>& numbers) {
-  constexpr bool kExact = std::is_same_v<NT, robust::Exact>;
-  constexpr bool kBits = std::is_same_v<NT, FacetWaves::M>;
-  if constexpr (kExact)
+  if constexpr (std::is_same_v<NT, robust::Exact>)
     numbers.frame = waves.exact_frame();
-  else if constexpr (kBits)
+  else if constexpr (std::is_same_v<NT, FacetWaves::M>)
     numbers.frame = &waves.frame(NT(), bits);
   else
     numbers.frame = &waves.frame(NT());
-  numbers.sites.clear();
   if (numbers.frame == nullptr) return;
-  numbers.sites.reserve(waves.sites.size());
-  for (std::size_t i = 0; i < waves.sites.size(); ++i) {
-    if constexpr (kExact)
-      numbers.sites.push_back(waves.exact_site(i));
-    else if constexpr (kBits)
-      numbers.sites.push_back(&waves.site(i, NT(), bits));
-    else
-      numbers.sites.push_back(&waves.site(i, NT()));
-  }
+  numbers.sites = SiteNumbers<NT>(waves, bits);
   for (std::size_t k = 0; k < 3; ++k) numbers.side[k] = predicates::side_line(*numbers.frame, k);
 }
 

@@ -20,6 +20,10 @@ predicates::Strip strip_of(const Mesh& mesh, const DistanceField& field, WindowI
 predicates::Unfolding<double> unfold_double(const Frames& frames, const predicates::Strip& strip);
 predicates::Unfolding<robust::DoubleDouble> unfold_double_double(const Frames& frames, const predicates::Strip& strip);
 
+/// Where a proof of equality is wanted, so many bits are asked first whether there is anything to prove: they cost far less than algebra. Chooses the
+/// order of the stages, and no more.
+constexpr int kBitsBeforeAlgebra = 256;
+
 /// MPFR frames of one precision, kept while strips that share faces are unfolded.
 class MpfrFrames {
  public:

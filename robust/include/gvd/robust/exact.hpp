@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -30,6 +31,8 @@ class Exact {
   explicit Exact(RootSum sum);
   static Exact exact(double x) { return Exact(x); }
   static Exact undefined() { return Exact(std::shared_ptr<const Node>()); }
+  /// The number that `make` returns, which is called when it is first needed, once, if ever.
+  static Exact deferred(std::function<Exact()> make);
 
   friend Exact operator-(const Exact& a);
   friend Exact operator+(const Exact& a, const Exact& b);
@@ -50,7 +53,7 @@ class Exact {
   /// The sign; empty only if undefined or out of reach (see above). Decided once, then remembered.
   friend MaybeSign maybe_sign(const Exact& a);
 
-  bool is_defined() const noexcept { return node_ != nullptr; }
+  bool is_defined() const { return node() != nullptr; }
   /// The correctly rounded double (ties to even, subnormals and overflow as IEEE 754). Empty only if undefined or out of reach.
   friend std::optional<double> rounded(const Exact& a);
   /// An enclosure of relative radius at most 2^-bits where that is not limited by the range of double (zero is exact). Infinite
@@ -64,7 +67,8 @@ class Exact {
 
  private:
   explicit Exact(std::shared_ptr<const Node> node) noexcept : node_(std::move(node)) {}
-  std::shared_ptr<const Node> node_;
+  const std::shared_ptr<const Node>& node() const;
+  std::shared_ptr<const Node> node_;  ///< null: undefined
 };
 
 MaybeSign maybe_sign(const Exact& a);

@@ -29,13 +29,13 @@ bool same_square_class(const mpq_class& a, const mpq_class& b);
 /// Whether n, with all factors p taken out, is no square modulo p. Pre: p is an odd prime; n is not zero.
 bool is_non_residue(const mpz_class& n, std::uint64_t p);
 
-/// Bit i is the Legendre symbol, modulo the i-th of 64 fixed primes p below 2^62, of q with all factors p taken out (1 for a
+/// Bit i < 32 is the Legendre symbol, modulo the i-th of 64 fixed primes p below 2^62, of q with all factors p taken out (1 for a
 /// non-residue). Taking the factors out makes it a homomorphism of the non-zero rationals modulo squares, with no exceptions:
 /// signature(a b) = signature(a) xor signature(b), signature(square) = 0. So different signatures prove different classes; equal
-/// ones say nothing until `same_square_class` confirms it. Pre: q is not zero. Cost: some 5 microseconds.
+/// ones say nothing until `same_square_class` confirms it. Pre: q is not zero. Cost: some 3 microseconds.
 std::uint64_t square_class_signature(const mpq_class& q);
 
-/// The primes of the signature.
+/// The fixed primes, of which signatures take the first ones.
 const std::array<std::uint64_t, 64>& signature_primes();
 
 }  // namespace gvd::robust
