@@ -27,7 +27,8 @@ class FacetSigns {
  public:
   FacetSigns(const LatticeWaves& waves, const auto& from) : waves_(waves), known_(waves.template numbers_from<NT>(from)) {
     numbers_.frame = &known_.frame;
-    for (const auto& site : known_.sites) numbers_.sites.push_back(&site);
+    numbers_.sites = SiteNumbers<NT>(known_.sites.size());
+    for (std::size_t i = 0; i < known_.sites.size(); ++i) numbers_.sites.set(i, known_.sites[i]);
     for (std::size_t k = 0; k < 3; ++k) numbers_.side[k] = predicates::side_line(known_.frame, k);
   }
 
