@@ -36,8 +36,10 @@ class SiteNumbers {
       return waves_->exact_site(i);
     else if constexpr (std::is_same_v<NT, FacetWaves::M>)
       return &waves_->site(i, NT(), bits_);
-    else
+    else if constexpr (requires { waves_->site(i, NT()); })
       return &waves_->site(i, NT());
+    else
+      return nullptr;  // a number type that waves do not know: all sites are set
   }
 
   mutable std::vector<const Site*> known_;
