@@ -145,6 +145,7 @@ bool EdgeJoiner::identical(const View& view, const Event& a, const Event& b) con
 
 bool EdgeJoiner::are_identical(HalfedgeId h, const Skeleton& left, const Skeleton& right) const {
   const HalfedgeId twin = in_.refined.twin(h);
+  if (left.sides[h % 3].pieces.front().labels != right.sides[twin % 3].pieces.back().labels) return false;  // the edge itself is a border there
   if (left.sides[h % 3].events.empty() && right.sides[twin % 3].events.empty()) return true;
   reversed_.assign_reversed(right.sides[twin % 3]);
   const View view{h, twin, left, right, left.sides[h % 3], reversed_};

@@ -126,7 +126,7 @@ class EdgeJoiner {
   EdgeJoiner(const DiagramInput& in, predicates::Decisions& decisions) : in_(in), decisions_(decisions) {}
   /// h: the half-edge of the left facet; the right one has its twin.
   Joint join(HalfedgeId h, const Skeleton& left, const Skeleton& right);
-  /// Whether either facet shows the same essential events there, by identity.
+  /// Whether either facet shows the same label sets there, between the same essential events by identity.
   bool are_identical(HalfedgeId h, const Skeleton& left, const Skeleton& right) const;
   /// Whether a site of one facet and a site of a neighbour facet over half-edge h of the former are one wave, by identity.
   static bool same_wave(const DiagramInput& in, HalfedgeId h, const Skeleton& left, std::uint32_t left_site, const Skeleton& right,
