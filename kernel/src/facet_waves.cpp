@@ -32,7 +32,7 @@ std::uint64_t path_along_edge(VertexId root) { return (std::uint64_t{1} << 32) |
 
 }  // namespace
 
-FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f, const UnfoldedWindows<double>* unfolded)
+FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f, const UnfoldedWindows* unfolded)
     : resolution_(resolution), field_(resolution.field()), kinds_(kinds), unfolded_(unfolded) {
   const Frames& frames = resolution.frames();
   const Mesh& mesh = frames.mesh();
@@ -125,7 +125,7 @@ bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, 
   const VertexId root = field_.windows[window].root;
   if (root == corner[side] || root == corner[(side + 1) % 3]) return false;  // the edge itself is the shorter way to its points
   arrival.unfolded = unfolded_ == nullptr ? nullptr : unfolded_->find(window);
-  if (arrival.unfolded == nullptr) arrival.unfolded = &arrivals.unfolded.emplace_front(UnfoldedWindows<double>::alone(frames, field_, window));
+  if (arrival.unfolded == nullptr) arrival.unfolded = &arrivals.unfolded.emplace_front(UnfoldedWindows::alone(frames, field_, window));
   if (arrival.unfolded->dead) return false;
   const EdgeFrame<double>& frame = frames(3 * face + side);
   const Ball<double> weight = narrowed(resolution_.distance(root));
@@ -172,7 +172,7 @@ void FieldWaves::add_window(const Arrival& arrival, std::uint8_t side) {
 
 /// The names of the cone's vertices. A strip may turn about a vertex more than once in a lifetime: what bounds the cone is a corner of the facet
 /// only if no step since has left it.
-void FieldWaves::note_cone(FacetSite& site, const UnfoldedWindows<double>::Entry& unfolded) const {
+void FieldWaves::note_cone(FacetSite& site, const UnfoldedWindows::Entry& unfolded) const {
   const Mesh& mesh = resolution_.frames().mesh();
   for (std::size_t c = 0; c < 2; ++c) {
     const WindowId bound = unfolded.bound[c];

@@ -22,7 +22,7 @@ namespace gvd::kernel {
 class FieldWaves final : public FacetWaves {
  public:
   /// `unfolded`: windows that are known already; it may lack any.
-  FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f, const UnfoldedWindows<double>* unfolded = nullptr);
+  FieldWaves(const Resolution& resolution, const std::vector<VertexKind>& kinds, FaceId f, const UnfoldedWindows* unfolded = nullptr);
 
   const predicates::FacetFrame<F>& frame(F) override { return frame_; }
   const predicates::Site<F>& site(std::size_t i, F) override { return sites_[i]; }
@@ -55,7 +55,7 @@ class FieldWaves final : public FacetWaves {
   /// A window that may be nearest somewhere in the facet, while they are sorted out.
   struct Arrival : WindowInterval {
     WindowId window;
-    const UnfoldedWindows<double>::Entry* unfolded;
+    const UnfoldedWindows::Entry* unfolded;
   };
   /// While they are sorted out: room that the three sides share.
   struct Arrivals {
@@ -63,7 +63,7 @@ class FieldWaves final : public FacetWaves {
     std::pmr::monotonic_buffer_resource room{first_room.data(), first_room.size()};
     std::pmr::vector<Arrival> all{&room}, kept{&room};
     std::array<double, 2> upper{};  ///< bounds of the distances of the present side's ends
-    std::forward_list<UnfoldedWindows<double>::Entry> unfolded;  ///< those that nobody knew
+    std::forward_list<UnfoldedWindows::Entry> unfolded;  ///< those that nobody knew
   };
   std::size_t most_sites() const;
   void add_side(std::uint8_t side, Arrivals& arrivals);
@@ -93,7 +93,7 @@ class FieldWaves final : public FacetWaves {
   bool has_relay_on_other_way(std::size_t parent, std::size_t relay);
   std::optional<Sides> turn_about(HalfedgeId first, bool left, FaceId end) const;
   std::optional<Sides> way_about(const Candidate& way, VertexId v, bool left, FaceId end) const;
-  void note_cone(FacetSite& site, const UnfoldedWindows<double>::Entry& unfolded) const;
+  void note_cone(FacetSite& site, const UnfoldedWindows::Entry& unfolded) const;
   const predicates::Strip& strip(std::size_t i) const;
   template <class T>
   predicates::Site<robust::Ball<T>> make_site(const FacetSite& site, const predicates::Unfolding<T>& at, const robust::Ball<T>& weight,
@@ -113,7 +113,7 @@ class FieldWaves final : public FacetWaves {
   predicates::FacetFrame<F> frame_;
   std::vector<predicates::Site<F>> sites_;
   mutable std::vector<predicates::Strip> strips_;  ///< made on demand
-  const UnfoldedWindows<double>* unfolded_;
+  const UnfoldedWindows* unfolded_;
 
   /// What only few facets need.
   struct Precise {

@@ -194,13 +194,13 @@ class Solver {
   bool is_one_source(LabelSetId labels) const { return labels != kNone && s_.label_sets[labels].size() == 1; }
 
   /// Neighbouring facets share most of their strips.
-  UnfoldedWindows<double> unfold_windows(const std::vector<FaceId>& faces) const {
+  UnfoldedWindows unfold_windows(const std::vector<FaceId>& faces) const {
     std::vector<WindowId> wanted;
     for (const FaceId f : faces)
       for (HalfedgeId h = 3 * f; h < 3 * f + 3; ++h)
         for (WindowId w = s_.field.first_window[h]; w != kNone; w = s_.field.windows[w].next)
           if (!s_.field.windows[w].dominated()) wanted.push_back(w);
-    return UnfoldedWindows<double>(*s_.frames, s_.field, wanted);
+    return UnfoldedWindows(*s_.frames, s_.field, wanted);
   }
 
   /// Beside GVD arcs, whose points are wanted correctly rounded.
@@ -228,7 +228,7 @@ class Solver {
     }
     waves_.resize(several.size());
     tessellations_.resize(several.size());
-    const UnfoldedWindows<double> unfolded = unfold_windows(several);
+    const UnfoldedWindows unfolded = unfold_windows(several);
     const bool go_on = in_parallel(several.size(), [&](std::size_t i, predicates::Decisions& decisions) {
       auto waves = std::make_unique<FieldWaves>(*s_.resolution, s_.kinds, several[i], &unfolded);
       face_labels_[several[i]] = waves->only_label();
@@ -281,8 +281,7 @@ class Solver {
         else if (s_.label_sets[s_.resolution->labels(v)].size() > 1)
           ++summary.ties;
       }
-      for (const WindowId w : s_.field.first_window)
-        for (WindowId x = w; x != kNone; x = s_.field.windows[x].next) ++summary.windows_kept;
+      for (const WindowRecord& window : s_.field.windows) summary.windows_kept += window.dominated() || window.dead() ? 0 : 1;
     }
     if (is_complete(s_.status) && options_.diagram) {
       const Diagram& d = s_.diagram;

@@ -9,13 +9,12 @@
 
 namespace gvd::kernel {
 
-/// Windows unfolded along the tree of their strips: each from its parent's numbers by the one face between them, which gives the same numbers as
+/// Windows unfolded along the tree of their strips, in doubles with their error discs: each from its parent's numbers by the one face between them, which gives the same numbers as
 /// its whole strip.
-template <class T>
 class UnfoldedWindows {
  public:
   struct Entry {
-    predicates::Unfolding<T> at;
+    predicates::Unfolding<double> at;
     /// Per cone vertex: the window whose apex it is, or kNone: an end of the first edge.
     std::array<WindowId, 2> bound{kNone, kNone};
     /// Per cone vertex: whether it bounds the last edge, too: no step since has left it.
@@ -39,12 +38,6 @@ class UnfoldedWindows {
 
  private:
   static Entry make(const Frames& frames, const DistanceField& field, WindowId window, const Entry* parent);
-  static const predicates::EdgeFrame<T>& frame(const Frames& frames, HalfedgeId h) {
-    if constexpr (std::is_same_v<T, double>)
-      return frames(h);
-    else
-      return frames.in_double_double(h);
-  }
 
   std::vector<std::uint32_t> entry_of_;  ///< per window
   std::vector<Entry> entries_;

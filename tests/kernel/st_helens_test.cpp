@@ -59,6 +59,8 @@ TEST_F(StHelens, CountsArePlausible) {
   EXPECT_EQ(s.unreachable_vertices, 0u);
   EXPECT_EQ(s.cells, kSources);
   EXPECT_EQ(s.ties, 0u);
+  EXPECT_LT(s.windows_kept, s.windows_propagated);
+  EXPECT_GT(s.windows_kept, s.windows_propagated * 9 / 10);
   // A planar graph with vertices of degree three, and about six neighbours a cell less those of the boundary.
   EXPECT_GE(s.gvd_vertices, kSources / 2);
   EXPECT_LE(s.gvd_vertices, 2 * kSources);

@@ -59,7 +59,7 @@ struct Summary {
   std::uint32_t components = 0;            ///< connected components of the mesh, isolated vertices not counted
   std::uint32_t unreachable_vertices = 0;  ///< vertices of the input in no component that holds a source
   std::uint64_t windows_propagated = 0;    ///< windows ever made
-  std::uint64_t windows_kept = 0;          ///< windows in the final lists of the half-edges
+  std::uint64_t windows_kept = 0;          ///< those neither superseded nor known to be longer than another one of their half-edge wherever they are seen
   std::uint32_t boundary_facets = 0;
   std::uint32_t cells = 0;  ///< non-empty cells
   std::uint32_t gvd_edges = 0, gvd_vertices = 0, break_points = 0, dual_edges = 0;
