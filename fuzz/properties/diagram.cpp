@@ -167,7 +167,23 @@ class Union {
   std::vector<std::size_t> parent_;
 };
 
-/// All pieces and faces of a cell hang together, by common points of their outlines, with the place of the source: a geodesic to
+/// Joins the ends of each edge that lies in the cell of source s at its ends and in the middle: what is beyond a relay may hang together with the rest of the
+/// cell by a shared ray only, which has no piece.
+void join_by_edges(Trial& t, SourceId s, Union& parts) {
+  const Mesh& mesh = t.mesh();
+  const auto is_in_cell = [&](const kernel::SurfacePoint& p) {
+    const auto nearest = t.solution().query(p).nearest;
+    return std::find(nearest.begin(), nearest.end(), s) != nearest.end();
+  };
+  for (kernel::HalfedgeId h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.twin(h) < h) continue;
+    const VertexId a = mesh.origin(h), b = mesh.target(h);
+    if (is_in_cell(point_at_vertex(mesh, a)) && is_in_cell(point_at_vertex(mesh, b)) && is_in_cell(point_on_edge(mesh, a, b, mpq_class(1, 2))))
+      parts.join(a, b);
+  }
+}
+
+/// All pieces and faces of a cell hang together, by common points of their outlines or by shared edges, with the place of the source: a geodesic to
 /// the source never leaves the cell. An enclave does not.
 Outcome cells_are_connected(Trial& t) {
   if (!t.certified()) return undecided();
@@ -201,6 +217,8 @@ Outcome cells_are_connected(Trial& t) {
         for (const std::uint32_t p : on_edge[{std::min(a, b), std::max(a, b)}]) parts.join(mesh.origin(3 * f), nodes.of_point(p));
       }
     }
+    const auto is_apart = [&](const auto& element) { return parts.root(element.first) != parts.root(elements[0].first); };
+    if (std::any_of(elements.begin(), elements.end(), is_apart)) join_by_edges(t, s, parts);
     for (const auto& [node, face] : elements)
       if (parts.root(node) != parts.root(elements[0].first))
         return violated(fmt::format("the cell of source {} is not connected: faces {} and {}", s, elements[0].second, face));

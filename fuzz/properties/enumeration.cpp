@@ -22,9 +22,11 @@ Outcome all_strips_enumerated(Trial& t) {
   ExactMesh exact(t.mesh());
   std::vector<std::uint32_t> roots;
   for (const auto& s : t.sources()) {
+    const auto where = locate(t.mesh(), s.at);
     const auto before = exact.faces.size();
-    roots.push_back(exact.insert(exact_position(t.mesh(), s.at)));
-    if (exact.faces.size() > before + 2) return skipped();  // sheets of the surface touch there
+    roots.push_back(where.kind == kernel::Location::Kind::vertex ? where.vertex : exact.insert(exact_position(t.mesh(), s.at)));
+    const bool meets_vertex = where.kind != kernel::Location::Kind::vertex && roots.back() < t.mesh().vertex_count();
+    if (meets_vertex || exact.faces.size() > before + 2) return skipped();  // sheets of the surface touch there
   }
   const BruteForce truth(exact);
   std::vector<std::vector<std::optional<robust::Mpfr>>> waves;
