@@ -8,19 +8,12 @@
 #include "gvd/kernel/error.hpp"
 #include "gvd/kernel/random_generator.hpp"
 #include "gvd/kernel/surface_point.hpp"
+#include "support/refusal.hpp"
 
 namespace gvd::kernel {
 namespace {
 
-template <class Act>
-std::string refusal(Act&& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
+using test::refusal;
 
 /// Areas 1, 2, 3, ... : triangles of base 2 and height f + 1, not connected.
 Mesh triangles(std::uint32_t count) {

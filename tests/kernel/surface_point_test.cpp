@@ -3,19 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "gvd/kernel/error.hpp"
+#include "support/refusal.hpp"
 
 namespace gvd::kernel {
 namespace {
 
-template <class Act>
-std::string refusal(Act&& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
+using test::refusal;
 
 /// Face 1 is given the other way round; faces 0 and 2 outvote it. Vertex 5 is isolated.
 Mesh strip() {

@@ -10,6 +10,7 @@
 #include "gvd/kernel/error.hpp"
 #include "gvd/kernel/surface_point.hpp"
 #include "support/nearest_reference.hpp"
+#include "support/refusal.hpp"
 
 namespace gvd::kernel {
 namespace {

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "gvd/kernel/error.hpp"
 #include "gvd/kernel/surface_point.hpp"
 #include "gvd/kernel/surface_search.hpp"
 
@@ -70,17 +68,6 @@ inline void expect_nearest(const kernel::Mesh& mesh, const kernel::SurfaceSearch
   if (found.distance > 0) {
     EXPECT_GE(expected * 4, (d + below) * (d + below));
   }
-}
-
-/// What an input error says.
-template <class Act>
-std::string refusal(Act&& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 }  // namespace gvd::test

@@ -1,6 +1,7 @@
 // Worst cases of finding surface points: points as far from two faces, feet on the border of a face and vertical lines through edges by construction, and their
 // nearest neighbours. Every answer is compared with brute force.
 #include "support/nearest_reference.hpp"
+#include "support/refusal.hpp"
 #include "support/zero_cases.hpp"
 
 namespace gvd::kernel {
