@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "support/truth.hpp"
@@ -53,6 +55,25 @@ TEST(CloseVertices, CellsOfTwoSourcesInOneFacetHaveAnArea) {
   const auto solution = solve(mesh, sources);
   ASSERT_TRUE(test::is_certified(solution));
   for (const Cell& cell : solution.diagram().cells) EXPECT_NEAR(cell.area, 0.5, 1e-12);
+}
+
+TEST(CloseVertices, TheirOrderIsKnownToAnyNumberOfBits) {
+  // A source between two others that reach it with 2^-150 and 2^-149 more than their weights, which pairs of doubles do not see: it is hidden, in
+  // whichever order they are named.
+  const Mesh mesh(test::MeshArrays{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}}});
+  const mpq_class step = mpq_class(1) >> 150, half(1, 2), quarter(1, 4);
+  const auto source = [&](int steps, double weight) { return Source{point_in_face(mesh, 0, {half + steps * step, quarter - steps * step, quarter}), weight}; };
+  std::vector<SourceId> order = {0, 1, 2};  // the first one, the second one, the hidden one
+  do {
+    std::vector<Source> sources(3);
+    sources[order[0]] = source(0, 1), sources[order[1]] = source(3, 1), sources[order[2]] = source(1, 2);
+    const auto solution = solve(mesh, sources);
+    ASSERT_TRUE(test::is_certified(solution));
+    EXPECT_EQ(solution.summary().cells, 2u);
+    const std::array<SourceId, 3> nearest = {order[1], order[0], order[0]};
+    for (VertexId v = 0; v < 3; ++v) EXPECT_EQ(std::vector(solution.nearest(v).begin(), solution.nearest(v).end()), std::vector{nearest[v]});
+    EXPECT_GT(solution.decisions()(static_cast<std::size_t>(predicates::Predicate::vertex_distance), robust::Stage::mpfr), 0u);
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST(CloseVertices, WhatADoubleCannotSayOfAPositionIsNotLeftOut) {
