@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -23,10 +24,16 @@ Outcome all_strips_enumerated(Trial& t) {
   std::vector<std::uint32_t> roots;
   for (const auto& s : t.sources()) {
     const auto where = locate(t.mesh(), s.at);
+    if (where.kind == kernel::Location::Kind::vertex) {
+      roots.push_back(where.vertex);
+      continue;
+    }
     const auto before = exact.faces.size();
-    roots.push_back(where.kind == kernel::Location::Kind::vertex ? where.vertex : exact.insert(exact_position(t.mesh(), s.at)));
-    const bool meets_vertex = where.kind != kernel::Location::Kind::vertex && roots.back() < t.mesh().vertex_count();
-    if (meets_vertex || exact.faces.size() > before + 2) return skipped();  // sheets of the surface touch there
+    roots.push_back(exact.insert(exact_position(t.mesh(), s.at)));
+    const bool on_boundary = where.kind == kernel::Location::Kind::edge && t.mesh().twin(where.halfedge) == kernel::kNone;
+    const bool is_known = std::any_of(t.sources().begin(), t.sources().begin() + static_cast<std::ptrdiff_t>(roots.size()) - 1,
+                                      [&](const auto& other) { return other.at.face == s.at.face && other.at.bary == s.at.bary; });
+    if (exact.faces.size() != before + (is_known ? 0 : on_boundary ? 1 : 2)) return skipped();  // sheets of the surface touch there
   }
   const BruteForce truth(exact);
   std::vector<std::vector<std::optional<robust::Mpfr>>> waves;
