@@ -49,18 +49,7 @@ void expect_brute_force(const Mesh& mesh, const std::vector<Source>& sources, co
 std::vector<Source> random_sources(const Mesh& mesh, Random& random, std::uint32_t count, bool weighted) {
   std::vector<Source> sources;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double weight = weighted ? random.uniform(0, 1.5) : 0;
-    switch (random.below(3)) {
-      case 0:
-        sources.push_back(at_vertex(mesh, random.below(mesh.vertex_count()), weight));
-        break;
-      case 1:
-        sources.push_back(inside_edge(mesh, random.below(mesh.halfedge_count()), random, weight));
-        break;
-      default:
-        sources.push_back(inside_face(mesh, random.below(mesh.face_count()), random, weight));
-        break;
-    }
+    sources.push_back(random_source(mesh, random, weighted ? random.uniform(0, 1.5) : 0));
   }
   return sources;
 }

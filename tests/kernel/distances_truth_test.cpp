@@ -43,18 +43,7 @@ std::vector<Source> mixed_sources(const Mesh& mesh, Random& random, bool weighte
   std::vector<Source> sources;
   const std::uint32_t count = 1 + random.below(6);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double weight = weighted ? 0.25 * random.below(9) : 0;
-    switch (random.below(3)) {
-      case 0:
-        sources.push_back(at_vertex(mesh, random.below(mesh.vertex_count()), weight));
-        break;
-      case 1:
-        sources.push_back(inside_edge(mesh, random.below(mesh.halfedge_count()), random, weight));
-        break;
-      default:
-        sources.push_back(inside_face(mesh, random.below(mesh.face_count()), random, weight));
-        break;
-    }
+    sources.push_back(random_source(mesh, random, weighted ? 0.25 * random.below(9) : 0));
   }
   return sources;
 }

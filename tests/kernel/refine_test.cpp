@@ -9,6 +9,7 @@
 #include "gvd/kernel/error.hpp"
 #include "gvd/kernel/source.hpp"
 #include "gvd/kernel/surface_point.hpp"
+#include "support/meshes.hpp"
 
 namespace gvd::kernel {
 namespace {
@@ -114,18 +115,8 @@ Mesh tetrahedron() {
 
 /// A grid of n x n squares with heights, each cut into two faces.
 Mesh terrain(std::uint32_t n) {
-  MeshArrays arrays;
   std::mt19937 random(7);
-  for (std::uint32_t j = 0; j <= n; ++j)
-    for (std::uint32_t i = 0; i <= n; ++i) arrays.points.push_back({double(i), double(j), double(random() % 1000) / 700});
-  for (std::uint32_t j = 0; j < n; ++j) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t v = j * (n + 1) + i, w = v + n + 1;
-      arrays.faces.push_back({v, v + 1, w});
-      arrays.faces.push_back({v + 1, w + 1, w});
-    }
-  }
-  return Mesh(std::move(arrays));
+  return Mesh(test::grid(n, n, [&](auto, auto) { return double(random() % 1000) / 700; }, test::Diagonal::falling));
 }
 
 SurfacePoint inside(FaceId face, int w0, int w1, int w2) {

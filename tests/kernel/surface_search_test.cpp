@@ -9,6 +9,7 @@
 
 #include "gvd/kernel/error.hpp"
 #include "gvd/kernel/surface_point.hpp"
+#include "support/meshes.hpp"
 #include "support/nearest_reference.hpp"
 #include "support/refusal.hpp"
 
@@ -19,18 +20,8 @@ using gvd::test::expect_nearest;
 using gvd::test::refusal;
 
 Mesh grid(std::uint32_t n, unsigned seed, double scale = 1) {
-  MeshArrays arrays;
   std::mt19937 random(seed);
-  for (std::uint32_t j = 0; j <= n; ++j)
-    for (std::uint32_t i = 0; i <= n; ++i) arrays.points.push_back({i * scale, j * scale, (random() % 5) * scale});
-  for (std::uint32_t j = 0; j < n; ++j) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t v = j * (n + 1) + i, w = v + n + 1;
-      arrays.faces.push_back({v, v + 1, w});
-      arrays.faces.push_back({v + 1, w + 1, w});
-    }
-  }
-  return Mesh(std::move(arrays));
+  return Mesh(test::grid(n, n, [&](auto, auto) { return (random() % 5) * scale; }, test::Diagonal::falling, scale));
 }
 
 TEST(Nearest, TheSevenRegionsOfATriangle) {

@@ -58,6 +58,8 @@ class Maker {
   bool coarse_ = false;
 };
 
+constexpr int kCases = 20000;
+
 /// How many results say something, and how many are as sharp as rounding to a double needs.
 struct Tally {
   int bounded = 0, sharp = 0, wide_start = 0;
@@ -67,9 +69,12 @@ struct Tally {
     sharp += ball.rad() <= 0x1p-56;
     wide_start += ball.rad() < start * 0x1p-8;
   }
+  void expect_useful() const {
+    EXPECT_GT(bounded, kCases * 3 / 4);
+    EXPECT_GT(sharp, kCases / 4);
+    EXPECT_GT(wide_start, kCases / 2);
+  }
 };
-
-constexpr int kCases = 20000;
 
 TEST(PrecisePoints, VerticesLieInTheirBalls) {
   Maker make(1);
@@ -92,9 +97,7 @@ TEST(PrecisePoints, VerticesLieInTheirBalls) {
     ASSERT_TRUE(contains(found.x, p.x) && contains(found.y, p.y)) << round;
     tally.add(found.x, start.radius);
   }
-  EXPECT_GT(tally.bounded, kCases * 3 / 4);
-  EXPECT_GT(tally.sharp, kCases / 4);
-  EXPECT_GT(tally.wide_start, kCases / 2);
+  tally.expect_useful();
 }
 
 TEST(PrecisePoints, PointsOnRaysLieInTheirBalls) {
@@ -112,9 +115,7 @@ TEST(PrecisePoints, PointsOnRaysLieInTheirBalls) {
     ASSERT_TRUE(contains(found.x, p.x) && contains(found.y, p.y)) << round;
     tally.add(found.x, start.radius);
   }
-  EXPECT_GT(tally.bounded, kCases * 3 / 4);
-  EXPECT_GT(tally.sharp, kCases / 4);
-  EXPECT_GT(tally.wide_start, kCases / 2);
+  tally.expect_useful();
 }
 
 TEST(PrecisePoints, TiesOnSidesLieInTheirBalls) {
@@ -138,9 +139,7 @@ TEST(PrecisePoints, TiesOnSidesLieInTheirBalls) {
     ASSERT_TRUE(contains(found, t)) << round;
     tally.add(found, radius);
   }
-  EXPECT_GT(tally.bounded, kCases * 3 / 4);
-  EXPECT_GT(tally.sharp, kCases / 4);
-  EXPECT_GT(tally.wide_start, kCases / 2);
+  tally.expect_useful();
 }
 
 TEST(PrecisePoints, SayNothingWhereTheyCannot) {

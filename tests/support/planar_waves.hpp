@@ -1,27 +1,15 @@
 #pragma once
 
-#include <array>
-#include <deque>
-#include <optional>
-
-#include "gvd/kernel/facet.hpp"
-#include "gvd/predicates/wave.hpp"
+#include "support/given_waves.hpp"
 
 namespace gvd::test {
 
 /// Waves of one facet with corners (0,0), (1,0), apex, from doubles that count as exact in every number type. Vertices 0, 1, 2 are the corners.
-class PlanarWaves final : public kernel::FacetWaves {
+class PlanarWaves final : public GivenWaves {
  public:
-  using Point = std::array<double, 2>;
-  using Exact = robust::Exact;
-
-  explicit PlanarWaves(Point apex, bool offers_exact = true) : offers_exact_(offers_exact) {
+  explicit PlanarWaves(Point apex, bool offers_exact = true) : GivenWaves(apex, 1, offers_exact) {
     face = 0;
     corner = {0, 1, 2};
-    set_frame(f_.frame, apex);
-    set_frame(dd_.frame, apex);
-    set_frame(m_.frame, apex);
-    set_frame(exact_.frame, apex);
   }
 
   /// A wave over `side` that sees the whole facet.
@@ -31,7 +19,7 @@ class PlanarWaves final : public kernel::FacetWaves {
     site.side = side;
     site.root = root;
     site.labels = root;
-    return add_site(site, image, weight, std::nullopt);
+    return add_site(site, image, weight);
   }
   /// A window with a cone.
   std::uint32_t add(std::uint8_t side, kernel::VertexId root, Point image, double weight, std::array<Point, 2> cone,
@@ -50,7 +38,7 @@ class PlanarWaves final : public kernel::FacetWaves {
     site.corner = k;
     site.root = k;
     site.labels = k;
-    return add_site(site, at, weight, std::nullopt);
+    return add_site(site, at, weight);
   }
 
   /// Finds out which waves attain the corners, exactly. To be called when all are there.
@@ -70,57 +58,6 @@ class PlanarWaves final : public kernel::FacetWaves {
       }
     }
   }
-
-  const predicates::FacetFrame<F>& frame(F) override { return f_.frame; }
-  const predicates::Site<F>& site(std::size_t i, F) override { return f_.sites[i]; }
-  const predicates::FacetFrame<DD>& frame(DD) override { return dd_.frame; }
-  const predicates::Site<DD>& site(std::size_t i, DD) override { return dd_.sites[i]; }
-  const predicates::FacetFrame<M>& frame(M, int) override { return m_.frame; }
-  const predicates::Site<M>& site(std::size_t i, M, int) override { return m_.sites[i]; }
-  const predicates::FacetFrame<Exact>* exact_frame() override { return offers_exact_ ? &exact_.frame : nullptr; }
-  const predicates::Site<Exact>* exact_site(std::size_t i) override { return &exact_.sites[i]; }
-
- private:
-  template <class NT>
-  struct Numbers {
-    predicates::FacetFrame<NT> frame;
-    std::deque<predicates::Site<NT>> sites;
-  };
-  template <class NT>
-  static NT number(double x) {
-    return robust::from_double<NT>(x, 256);
-  }
-  template <class NT>
-  static predicates::PlanePoint<NT> point(Point p) {
-    return {number<NT>(p[0]), number<NT>(p[1])};
-  }
-  template <class NT>
-  static void set_frame(predicates::FacetFrame<NT>& frame, Point apex) {
-    frame = {point<NT>(apex), number<NT>(1)};
-  }
-  template <class NT>
-  static void add_to(Numbers<NT>& numbers, Point image, double weight, const std::optional<std::array<Point, 2>>& cone) {
-    predicates::Site<NT> site;
-    site.image = point<NT>(image);
-    site.weight = number<NT>(weight);
-    site.has_cone = cone.has_value();
-    if (cone) site.cone = {point<NT>((*cone)[0]), point<NT>((*cone)[1])};
-    numbers.sites.push_back(site);
-  }
-  std::uint32_t add_site(const kernel::FacetSite& site, Point image, double weight, const std::optional<std::array<Point, 2>>& cone) {
-    sites.push_back(site);
-    add_to(f_, image, weight, cone);
-    add_to(dd_, image, weight, cone);
-    add_to(m_, image, weight, cone);
-    add_to(exact_, image, weight, cone);
-    return static_cast<std::uint32_t>(sites.size() - 1);
-  }
-
-  bool offers_exact_;
-  Numbers<F> f_;
-  Numbers<DD> dd_;
-  Numbers<M> m_;
-  Numbers<Exact> exact_;
 };
 
 }  // namespace gvd::test

@@ -105,4 +105,16 @@ inline kernel::Source inside_edge(const kernel::Mesh& mesh, kernel::HalfedgeId h
   return {kernel::point_on_edge(mesh, mesh.origin(h), mesh.target(h), t), weight};
 }
 
+/// A source at a vertex, inside an edge or inside a face.
+inline kernel::Source random_source(const kernel::Mesh& mesh, Random& random, double weight = 0) {
+  switch (random.below(3)) {
+    case 0:
+      return at_vertex(mesh, random.below(mesh.vertex_count()), weight);
+    case 1:
+      return inside_edge(mesh, random.below(mesh.halfedge_count()), random, weight);
+    default:
+      return inside_face(mesh, random.below(mesh.face_count()), random, weight);
+  }
+}
+
 }  // namespace gvd::test
