@@ -87,7 +87,9 @@ class Solver {
     s_.refined = refine(s_.input, sources_, s_.where);
     s_.parts = FaceParts(s_.input, s_.refined);
     s_.frames = std::make_unique<Frames>(s_.refined);
-    s_.kinds = classify_vertices(s_.refined, s_.decisions);
+    // As in the input, whose corners have shorter numbers; what is inserted lies inside a face or an edge.
+    s_.kinds = classify_vertices(s_.input, s_.decisions);
+    s_.kinds.resize(s_.refined.vertex_count(), VertexKind::flat);
     if (s_.frames->has_underflow())
       predicates::undecided(s_.decisions, predicates::Predicate::window_orientation,
                             "an edge is shorter than 2^-200 of the longest, or longer than the greatest double: beyond the range of the error bounds");

@@ -265,11 +265,13 @@ void BisectorVertices::examine(const Triple& t, Found& found) {
   const auto& numbers = ladder_.filter();
   bool holds = run_tests(numbers, Stage::filter, t);
   settled_.clear();
-  bool may_part = true;
+  int finer_stages = 0;
+  bool parted = false;
   if (holds && !pending_.empty()) {
     const auto finished = ladder_.for_each_stage([&](const auto& finer, Stage stage) -> std::optional<bool> {
-      const bool parted = stage != Stage::double_double && std::exchange(may_part, false);
-      if (parted && !settle_where_they_part(t)) return false;
+      // Exact images cost more than a few hundred bits, which mostly are enough where it is not a tie.
+      const bool short_numbers = stage != Stage::algebra && ++finer_stages <= 3;
+      if (!short_numbers && !std::exchange(parted, true) && !settle_where_they_part(t)) return false;
       if (!run_tests(finer, stage, t)) return false;
       return pending_.empty() ? std::optional(true) : std::nullopt;
     });

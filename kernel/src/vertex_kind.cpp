@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "coplanar_fan.hpp"
 #include "gvd/predicates/angle_sum.hpp"
@@ -53,17 +54,31 @@ AngleSumFilter filter(const Mesh& mesh, VertexId v) {
   return sum;
 }
 
-Decision decide_exactly(const Mesh& mesh, VertexId v, int quarter_turns) {
+/// The neighbours of v as seen from it, all times a common number that makes them whole: sums and products of these need no common divisors.
+std::map<VertexId, ExactPoint> whole_spokes(const Mesh& mesh, VertexId v) {
   const ExactPoint at = mesh.exact_point(v);
-  const auto exact_difference = [&](VertexId p) {
-    ExactPoint d = mesh.exact_point(p);
-    for (std::size_t k = 0; k < 3; ++k) d[k] -= at[k];
-    return d;
+  std::map<VertexId, ExactPoint> spokes;
+  mpz_class common = 1;
+  const auto add = [&](VertexId p) {
+    const auto [spoke, is_new] = spokes.try_emplace(p, mesh.exact_point(p));
+    for (std::size_t k = 0; is_new && k < 3; ++k) {
+      spoke->second[k] -= at[k];
+      common = lcm(common, spoke->second[k].get_den());
+    }
   };
-  std::vector<predicates::ExactCorner> fan;
   for_each_corner(mesh, v, [&](VertexId p, VertexId q) {
-    fan.push_back(predicates::exact_corner(exact_difference(p), exact_difference(q)));
+    add(p);
+    add(q);
   });
+  for (auto& [p, spoke] : spokes)
+    for (mpq_class& x : spoke) x *= common;
+  return spokes;
+}
+
+Decision decide_exactly(const Mesh& mesh, VertexId v, int quarter_turns) {
+  const auto spokes = whole_spokes(mesh, v);
+  std::vector<predicates::ExactCorner> fan;
+  for_each_corner(mesh, v, [&](VertexId p, VertexId q) { fan.push_back(predicates::exact_corner(spokes.at(p), spokes.at(q))); });
   return predicates::compare_angle_sum(fan, quarter_turns);
 }
 

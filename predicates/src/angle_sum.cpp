@@ -1,5 +1,6 @@
 #include "gvd/predicates/angle_sum.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "formal_angle_product.hpp"
@@ -99,11 +100,17 @@ class TurnedProduct {
   bool certain_ = true;
 };
 
+long binary_exponent(const mpq_class& q) {
+  return static_cast<long>(mpz_sizeinbase(q.get_num_mpz_t(), 2)) - static_cast<long>(mpz_sizeinbase(q.get_den_mpz_t(), 2));
+}
+
+/// Each corner is made shorter or longer by a power of two, to about 1, so that no product leaves the range of doubles.
 template <class NT>
 TurnedProduct<NT> product_of(std::span<const ExactCorner> fan, int bits) {
   TurnedProduct<NT> product;
   for (const ExactCorner& corner : fan) {
-    product.add(robust::from<NT>(corner.dot, bits), sqrt(robust::from<NT>(corner.cross_square, bits)));
+    const long root = binary_exponent(corner.cross_square) / 2, shift = corner.dot == 0 ? root : std::max(root, binary_exponent(corner.dot));
+    product.add(robust::from<NT>(robust::shifted(corner.dot, -shift), bits), sqrt(robust::from<NT>(robust::shifted(corner.cross_square, -2 * shift), bits)));
   }
   return product;
 }
@@ -112,13 +119,23 @@ TurnedProduct<NT> product_of(std::span<const ExactCorner> fan, int bits) {
 /// the last entries are for angles that differ by less than any input of doubles is known to reach.
 constexpr int kBits[] = {128, 256, 512, 1024, 4096, 16384};
 
+using InDoubleDouble = TurnedProduct<Ball<robust::DoubleDouble>>;
+
 /// The whole number of quarter turns that is certainly less than one off, by as many bits as that takes (few).
-std::optional<int> certain_quarters(std::span<const ExactCorner> fan) {
-  if (const auto quarters = product_of<Ball<robust::DoubleDouble>>(fan, 0).quarters()) return quarters;
+std::optional<int> certain_quarters(std::span<const ExactCorner> fan, const InDoubleDouble& product) {
+  if (const auto quarters = product.quarters()) return quarters;
   for (const int bits : kBits) {
     if (const auto quarters = product_of<Ball<robust::Mpfr>>(fan, bits).quarters()) return quarters;
   }
   return std::nullopt;
+}
+
+MaybeSign exact_comparison(std::span<const ExactCorner> fan, int quarter_turns, const InDoubleDouble& product) {
+  const auto formal = FormalAngleProduct::of(fan, kMostAngleRoots);
+  if (!formal) return std::nullopt;
+  const auto quarters = certain_quarters(fan, product);
+  if (!quarters) return std::nullopt;
+  return compare_turns(*quarters, quarter_turns, [&] { return formal->imaginary_sign(quarter_turns); });
 }
 
 }  // namespace
@@ -172,12 +189,6 @@ ExactCorner exact_corner(const std::array<mpq_class, 3>& d, const std::array<mpq
     const mpq_class c = d[i] * e[j] - d[j] * e[i];
     corner.cross_square += c * c;
   }
-  const mpq_class size = corner.dot * corner.dot + corner.cross_square;  // |d|^2 |e|^2
-  const long exponent = static_cast<long>(mpz_sizeinbase(size.get_num().get_mpz_t(), 2)) -
-                        static_cast<long>(mpz_sizeinbase(size.get_den().get_mpz_t(), 2));
-  const long quarter = exponent / 4;
-  corner.dot *= robust::power_of_two(-2 * quarter);
-  corner.cross_square *= robust::power_of_two(-4 * quarter);
   return corner;
 }
 
@@ -190,16 +201,13 @@ MaybeSign multiprecision_compare_angle_sum(std::span<const ExactCorner> fan, int
 }
 
 MaybeSign exact_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
-  const auto product = FormalAngleProduct::of(fan, kMostAngleRoots);
-  if (!product) return std::nullopt;
-  const auto quarters = certain_quarters(fan);
-  if (!quarters) return std::nullopt;
-  return compare_turns(*quarters, quarter_turns, [&] { return product->imaginary_sign(quarter_turns); });
+  return exact_comparison(fan, quarter_turns, product_of<Ball<robust::DoubleDouble>>(fan, 0));
 }
 
 Decision compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns) {
-  if (const auto sign = double_double_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::double_double};
-  if (const auto sign = exact_compare_angle_sum(fan, quarter_turns)) return {sign, Stage::algebra};
+  const InDoubleDouble product = product_of<Ball<robust::DoubleDouble>>(fan, 0);
+  if (const auto sign = product.compare(quarter_turns)) return {sign, Stage::double_double};
+  if (const auto sign = exact_comparison(fan, quarter_turns, product)) return {sign, Stage::algebra};
   for (const int bits : kBits) {
     if (const auto sign = multiprecision_compare_angle_sum(fan, quarter_turns, bits)) return {sign, Stage::mpfr};
   }

@@ -212,7 +212,7 @@ MaybeSign Exact::Node::decide_sign() const {
   for (int bits = kFirstBits; is_not_zero || bits <= kBitsWithoutProof; bits *= 2) {
     Evaluation evaluation(bits);
     if (const MaybeSign sign = evaluation.of(*this).sign()) return sign;
-    if (bits != 2 * kFirstBits) continue;
+    if (bits != 4 * kFirstBits) continue;
     const auto zero = TowerEvaluation().is_zero(*this);
     if (zero == true) return Sign::zero;
     is_not_zero = zero == false;

@@ -30,13 +30,14 @@ mpq_class exact_rational(double x) {
   return mpq_class(x);
 }
 
-mpq_class power_of_two(long k) {
-  mpq_class result(1);
+mpq_class power_of_two(long k) { return shifted(1, k); }
+
+mpq_class shifted(mpq_class q, long k) {
   if (k >= 0)
-    mpq_mul_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<mp_bitcnt_t>(k));
+    mpq_mul_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(k));
   else
-    mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<mp_bitcnt_t>(-k));
-  return result;
+    mpq_div_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(-k));
+  return q;
 }
 
 bool is_square(const mpq_class& q) {  // numerator and denominator have no common factor

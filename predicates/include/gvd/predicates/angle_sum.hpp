@@ -48,7 +48,6 @@ struct ExactCorner {
   mpq_class dot;           ///< d.e
   mpq_class cross_square;  ///< |d x e|^2 > 0
 };
-/// All coordinates times a common power of two that brings the longer side near 1: the angle stays, and no later stage overflows.
 ExactCorner exact_corner(const std::array<mpq_class, 3>& d, const std::array<mpq_class, 3>& e);
 
 robust::MaybeSign double_double_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns);

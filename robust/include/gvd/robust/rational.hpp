@@ -17,6 +17,9 @@ mpq_class exact_rational(double x);
 /// 2^k as a rational.
 mpq_class power_of_two(long k);
 
+/// q 2^k.
+mpq_class shifted(mpq_class q, long k);
+
 /// The non-negative rational square root of q, if it has one.
 std::optional<mpq_class> rational_square_root(const mpq_class& q);
 
