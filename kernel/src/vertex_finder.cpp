@@ -265,14 +265,16 @@ void BisectorVertices::examine(const Triple& t, Found& found) {
   const auto& numbers = ladder_.filter();
   bool holds = run_tests(numbers, Stage::filter, t);
   settled_.clear();
+  // Exact images where strips part cost more than a few hundred bits, and more than exact numbers that are cheap here.
   int finer_stages = 0;
   bool parted = false;
+  const auto part = [&] { return std::exchange(parted, true) || settle_where_they_part(t); };
   if (holds && !pending_.empty()) {
     const auto finished = ladder_.for_each_stage([&](const auto& finer, Stage stage) -> std::optional<bool> {
-      // Exact images cost more than a few hundred bits, which mostly are enough where it is not a tie.
-      const bool short_numbers = stage != Stage::algebra && ++finer_stages <= 3;
-      if (!short_numbers && !std::exchange(parted, true) && !settle_where_they_part(t)) return false;
+      const bool exact = stage == Stage::algebra, cheap = exact && waves_.exact_is_cheap();
+      if ((exact || ++finer_stages > 3) && !cheap && !part()) return false;
       if (!run_tests(finer, stage, t)) return false;
+      if (cheap && !pending_.empty() && !(part() && run_tests(finer, stage, t))) return false;
       return pending_.empty() ? std::optional(true) : std::nullopt;
     });
     if (!finished) {
