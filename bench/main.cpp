@@ -97,6 +97,13 @@ void diagram(State& state) {
   solve_and_report(state, st_helens(), kernel::random_surface_sources(st_helens(), source_count(state), kSeed), {});
 }
 
+/// The same on two threads: the phases that use them are tessellation, extraction and rounding.
+void diagram_two_threads(State& state) {
+  kernel::SolveOptions options;
+  options.threads = 2;
+  solve_and_report(state, st_helens(), kernel::random_surface_sources(st_helens(), source_count(state), kSeed), options);
+}
+
 /// Arguments: triangles, sources, threads.
 void diagram_of_generated_terrain(State& state) {
   const kernel::Mesh& mesh = terrain(static_cast<std::uint32_t>(state.range(0)));
@@ -113,6 +120,7 @@ BENCHMARK(cgal_distance_field)->Apply(numbers_of_sources);
 BENCHMARK(distance_field)->Apply(numbers_of_sources);
 BENCHMARK(distances)->Apply(numbers_of_sources);
 BENCHMARK(diagram)->Apply(numbers_of_sources);
+BENCHMARK(diagram_two_threads)->Apply(numbers_of_sources)->UseRealTime();
 BENCHMARK(diagram_of_generated_terrain)
     ->Args({20000, 20, 1})
     ->Args({20000, 20, 2})

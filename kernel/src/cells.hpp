@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "chains.hpp"
+#include "loops.hpp"
 
 /// Cells: their pieces in the faces, their Euler characteristic, their area.
 namespace gvd::kernel::subdivision {
@@ -18,7 +19,7 @@ struct LinkArcs {
 void count_cells(const DiagramInput& in, const Subdivision& s, const Chains& chains, bool check, Diagram& diagram);
 
 /// Fills face_label, pieces, boundary_facets, the areas of the cells, shared. `point_of`: per place its point, or kNone. Pre: count_cells.
-void make_cells(const DiagramInput& in, const Subdivision& s, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs,
+void make_cells(const DiagramInput& in, const Subdivision& s, const Loops& loops, const std::vector<std::uint32_t>& point_of, const LinkArcs& link_arcs,
                 Diagram& diagram);
 
 }  // namespace gvd::kernel::subdivision

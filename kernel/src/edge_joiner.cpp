@@ -213,23 +213,23 @@ EdgeJoiner::Order EdgeJoiner::compare(const View& view, std::size_t left_event, 
   return *answer == Verdict::less ? Order::less : *answer == Verdict::greater ? Order::greater : Order::equal;
 }
 
-Joint EdgeJoiner::join(HalfedgeId h, const Skeleton& left, const Skeleton& right) {
+void EdgeJoiner::join(HalfedgeId h, const Skeleton& left, const Skeleton& right, Joint& joint) {
   const HalfedgeId twin = in_.refined.twin(h);
   reversed_.assign_reversed(right.sides[twin % 3]);
   const View view{h, twin, left, right, left.sides[h % 3], reversed_};
-  std::vector<std::size_t> l, r;
-  for (std::size_t i = 0; i < view.of_left.events.size(); ++i)
-    if (view.of_left.events[i].essential) l.push_back(i);
-  for (std::size_t i = 0; i < view.of_right.events.size(); ++i)
-    if (view.of_right.events[i].essential) r.push_back(i);
-  Joint joint;
-  joint.decided = merge(view, l, r, joint.stations);
-  if (joint.decided) joint.decided = insert_inner_events(view, joint);
+  const auto list_essential = [](const SideView& side, std::vector<std::size_t>& list) {
+    list.clear();
+    for (std::size_t i = 0; i < side.events.size(); ++i)
+      if (side.events[i].essential) list.push_back(i);
+  };
+  list_essential(view.of_left, left_events_);
+  list_essential(view.of_right, right_events_);
+  joint.stations.clear();
+  joint.decided = merge(view, left_events_, right_events_, joint.stations) && insert_inner_events(view, joint);
   if (!joint.decided)
     predicates::undecided(
         decisions_, Predicate::edge_tie,
         "order of the points where regions meet on side " + std::to_string(h % 3) + " of facet " + std::to_string(left.face));
-  return joint;
 }
 
 /// Merges two ascending lists of events. False if an order is unknown.
@@ -299,7 +299,8 @@ bool EdgeJoiner::insert_inner_events(const View& view, Joint& joint) {
     while (k < side.events.size() && !side.events[k].essential) ++k;
     return k;
   };
-  std::vector<Station> all;
+  std::vector<Station>& all = all_stations_;
+  all.clear();
   std::size_t i = 0, j = 0;  // events of either side from the last essential one on
   for (std::size_t gap = 0; gap <= joint.stations.size(); ++gap) {
     Station* before = gap == 0 ? nullptr : &all.back();  // the one before the gap
@@ -318,7 +319,7 @@ bool EdgeJoiner::insert_inner_events(const View& view, Joint& joint) {
     if (left_goes_on) i = i_end + 1;
     if (right_goes_on) j = j_end + 1;
   }
-  joint.stations = std::move(all);
+  std::swap(joint.stations, all);
   return true;
 }
 

@@ -1,5 +1,7 @@
 #include "gvd/kernel/extract.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -19,22 +21,26 @@ class Extraction {
  public:
   Extraction(const DiagramInput& in, predicates::Decisions& decisions) : in_(in), decisions_(decisions) {}
 
+  /// What does not need one another is done side by side.
   Diagram run() {
-    s_ = subdivide(in_, decisions_);
-    waves_.emplace(s_);
-    chains_ = trace(in_, s_, all_decided(decisions_));
+    tbb::parallel_invoke([&] { if (in_.prepare_points) in_.prepare_points(); },
+                         [&] {
+                           s_ = subdivide(in_, decisions_);
+                           chains_ = trace(in_, s_, all_decided(decisions_));
+                         });
     for (const std::string& doubt : chains_.doubts) predicates::undecided(decisions_, predicates::Predicate::location, doubt);
     list_undecided_faces();
-    count_cells(in_, s_, chains_, all_decided(decisions_) && d_.undecided_faces.empty(), d_);
+    const bool certain = all_decided(decisions_) && d_.undecided_faces.empty();
     d_.label_sets = in_.label_sets;
     keep_one_place_of_closed_chains();
-    make_points();
+    waves_.emplace(s_);
+    tbb::parallel_invoke([&] { make_points(); }, [&] { count_cells(in_, s_, chains_, certain, d_); }, [&] { loops_ = find_loops(in_, s_); });
     for (Chain& chain : chains_.chains)
       if (chain.closed) start_canonically(chain);
     make_edges();
+    tbb::parallel_invoke([&] { construct_arcs(in_, s_, *waves_, first_links_, d_.arcs); }, [&] { make_cells(in_, s_, loops_, point_of_, link_arcs_, d_); });
     make_ends();
     make_dual();
-    make_cells(in_, s_, point_of_, link_arcs_, d_);
     add_neighbours();
     check();
     return std::move(d_);
@@ -93,7 +99,6 @@ class Extraction {
   void make_edges() {
     link_arcs_.arc.assign(s_.links.size(), kNone);
     link_arcs_.reversed.assign(s_.links.size(), 0);
-    std::vector<DirectedLink> first_links;
     for (const Chain& chain : chains_.chains) {
       GvdEdge edge;
       edge.closed = chain.closed;
@@ -105,7 +110,7 @@ class Extraction {
         if (i == 0 || point_of_[from] != kNone) {
           edge.arcs.push_back(static_cast<std::uint32_t>(d_.arcs.size()));
           d_.arcs.emplace_back().node[0] = point_of_[from];
-          first_links.push_back(link);
+          first_links_.push_back(link);
           if (chains_.role[from] == Role::break_point)
             d_.break_points.push_back({point_of_[from], static_cast<std::uint32_t>(d_.edges.size())});
         }
@@ -115,7 +120,6 @@ class Extraction {
       }
       d_.edges.push_back(std::move(edge));
     }
-    construct_arcs(in_, s_, *waves_, first_links, d_.arcs);
   }
 
   void make_ends() {
@@ -196,7 +200,9 @@ class Extraction {
   std::optional<PreciseWaves> waves_;
   Chains chains_;
   std::vector<std::uint32_t> point_of_;  // per place
+  Loops loops_;
   LinkArcs link_arcs_;
+  std::vector<DirectedLink> first_links_;  // per arc
   Diagram d_;
 };
 

@@ -260,10 +260,10 @@ class Solver {
     const auto as_far_along = [&](HalfedgeId h, const FacetSite& left, const FacetSite& right) {
       return are_as_far_along(*s_.resolution, h, left, right);
     };
-    s_.resolution->add_images(windows_beside_arcs());
+    const auto prepare_points = [&] { s_.resolution->add_images(windows_beside_arcs()); };
     tbb::task_arena arena(threads_to_use());
     arena.execute([&] {
-      s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, origin, as_far_along},
+      s_.diagram = extract({s_.input, s_.refined, sources, s_.label_sets.all(), s_.resolution->labels(), face_labels_, facets_, origin, as_far_along, prepare_points},
                            s_.decisions);
     });
     s_.resolution->forget_images();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "gvd/kernel/error.hpp"
 #include "subdivision.hpp"
@@ -55,21 +56,27 @@ class Subdivider {
 
   /// Borders alone are enough where both facets of an edge show the same by identity. Elsewhere the waves between them play a part.
   void complete_skeletons() {
+    to_ask_.assign(s_.facets.size(), 1);
     for (bool changed = true; changed;) {
       changed = false;
-      for (std::uint32_t f = 0; f < s_.facets.size(); ++f) {
-        for (std::uint32_t k = 0; k < 3 && has_borders_only(s_.facets[f]); ++k) {
-          const HalfedgeId h = 3 * s_.facets[f].face + k;
-          const Skeleton* other = decided_facet(mesh_.twin(h));
-          if (other == nullptr || other->waves == nullptr || (mesh_.twin(h) < h && has_borders_only(*other))) continue;  // asked from there
-          if (joiner_.are_identical(h, s_.facets[f], *other)) continue;
-          complete(f);
-          const std::uint32_t g = s_.facet_of[other->face];
-          if (has_borders_only(*other)) complete(g);
-          changed = true;
-        }
-      }
+      for (std::uint32_t f = 0; f < s_.facets.size(); ++f)
+        if (std::exchange(to_ask_[f], 0) != 0) changed |= !is_joined_by_borders(f);
     }
+  }
+
+  /// Completes the facet, and a neighbour, if they are not.
+  bool is_joined_by_borders(std::uint32_t f) {
+    for (std::uint32_t k = 0; k < 3 && has_borders_only(s_.facets[f]); ++k) {
+      const HalfedgeId h = 3 * s_.facets[f].face + k;
+      const Skeleton* other = decided_facet(mesh_.twin(h));
+      if (other == nullptr || other->waves == nullptr || (mesh_.twin(h) < h && has_borders_only(*other))) continue;  // asked from there
+      if (joiner_.are_identical(h, s_.facets[f], *other)) continue;
+      complete(f);
+      const std::uint32_t g = s_.facet_of[other->face];
+      if (has_borders_only(*other)) complete(g);
+      return false;
+    }
+    return true;
   }
 
   static bool has_borders_only(const Skeleton& facet) { return facet.tessellation != nullptr && facet.tessellation->borders_only; }
@@ -79,6 +86,8 @@ class Subdivider {
     s_.completed.push_back(std::make_unique<FacetTessellation>(tessellate(waves, decisions_)));
     const FacetTessellation& whole = *s_.completed.back();
     s_.facets[f] = whole.undecided ? Skeleton{.face = waves.face, .undecided = true} : checked_skeleton({waves.face, &waves, &whole});
+    for (HalfedgeId h = 3 * waves.face; h < 3 * waves.face + 3; ++h)
+      if (const HalfedgeId twin = mesh_.twin(h); twin != kNone && s_.facet_of[Mesh::face(twin)] != kNone) to_ask_[s_.facet_of[Mesh::face(twin)]] = 1;
   }
 
   /// The tessellated faces, and all parts of an input face of which one part is tessellated.
@@ -123,7 +132,7 @@ class Subdivider {
 
   /// Finds the stations of every side, and gives each a place.
   void join_sides() {
-    stations_.resize(3 * s_.facets.size());
+    stations_of_.assign(3 * s_.facets.size(), {0, 0});
     open_.assign(3 * s_.facets.size(), 0);
     for (std::uint32_t f = 0; f < s_.facets.size(); ++f) {
       if (s_.facets[f].undecided) continue;
@@ -139,35 +148,48 @@ class Subdivider {
     }
   }
 
+  /// From one corner of the side to the next; node_left is the facet's own node.
+  std::span<const Station> stations(std::uint32_t f, std::uint32_t k) const {
+    const auto& [begin, end] = stations_of_[3 * f + k];
+    return {stations_.data() + begin, stations_.data() + end};
+  }
+
   void take_own_events(std::uint32_t f, std::uint32_t k, bool open) {
+    joint_.stations.clear();
     for (const Event& event : s_.facets[f].sides[k].events)
-      if (event.essential) stations_[3 * f + k].push_back({kNone, event.node, kNone});
+      if (event.essential) joint_.stations.push_back({kNone, event.node, kNone});
     open_[3 * f + k] = open ? 1 : 0;
-    give_places(3 * s_.facets[f].face + k, f, kNone, stations_[3 * f + k], open);
+    give_places(3 * s_.facets[f].face + k, f, kNone, open);
+    keep_stations(f, k);
   }
 
   void join_over(HalfedgeId h, std::uint32_t f, std::uint32_t k, HalfedgeId twin, const Skeleton& other) {
     const std::uint32_t g = s_.facet_of[Mesh::face(twin)];
-    Joint joint = joiner_.join(h, s_.facets[f], other);
-    if (!joint.decided) {
+    joiner_.join(h, s_.facets[f], other, joint_);
+    if (!joint_.decided) {
       take_own_events(f, k, true);
       take_own_events(g, twin % 3, true);
       return;
     }
-    give_places(h, f, g, joint.stations, false);
-    auto& mine = stations_[3 * f + k];
-    auto& theirs = stations_[3 * g + twin % 3];
-    mine = joint.stations;
-    theirs.assign(joint.stations.rbegin(), joint.stations.rend());
-    for (Station& station : theirs) {
+    give_places(h, f, g, false);
+    keep_stations(f, k);
+    std::reverse(joint_.stations.begin(), joint_.stations.end());
+    for (Station& station : joint_.stations) {
       std::swap(station.node_left, station.node_right);
       std::swap(station.passed_left, station.passed_right);
     }
+    keep_stations(g, twin % 3);
   }
 
-  void give_places(HalfedgeId h, std::uint32_t f, std::uint32_t g, std::vector<Station>& stations, bool open) {
+  void keep_stations(std::uint32_t f, std::uint32_t k) {
+    const auto begin = static_cast<std::uint32_t>(stations_.size());
+    stations_.insert(stations_.end(), joint_.stations.begin(), joint_.stations.end());
+    stations_of_[3 * f + k] = {begin, static_cast<std::uint32_t>(stations_.size())};
+  }
+
+  void give_places(HalfedgeId h, std::uint32_t f, std::uint32_t g, bool open) {
     const HalfedgeId twin = mesh_.twin(h);
-    for (Station& station : stations) {
+    for (Station& station : joint_.stations) {
       station.place = static_cast<std::uint32_t>(s_.places.size());
       Place place{.kind = Place::Kind::edge, .boundary = twin == kNone, .open = open, .halfedge = std::min(h, twin)};
       const bool both = station.node_left != kNone && station.node_right != kNone;
@@ -197,8 +219,7 @@ class Subdivider {
   // ---- darts ----
 
   void reserve_darts() {
-    std::size_t count = stations_.size();  // sides
-    for (const auto& stations : stations_) count += stations.size();
+    std::size_t count = stations_of_.size() + stations_.size();
     for (const Skeleton& facet : s_.facets) count += 2 * facet.kept.size();
     s_.darts.reserve(count);
   }
@@ -227,7 +248,7 @@ class Subdivider {
     std::uint32_t piece = 0;
     side_first_[k] = add_dart(
         {.from = s_.vertex_place[v], .facet = f, .halfedge = h, .site = view.pieces[0].site, .labels = view.pieces[0].labels});
-    for (const Station& station : stations_[3 * f + k]) {
+    for (const Station& station : stations(f, k)) {
       if (station.node_left != kNone) node_place_[station.node_left] = station.place;
       if (const std::uint32_t last = station.node_left != kNone ? station.node_left : station.passed_left; last != kNone)
         piece = std::find_if(view.events.begin(), view.events.end(), [&](const Event& e) { return e.node == last; })->after;
@@ -281,7 +302,7 @@ class Subdivider {
     const auto spokes_of = [&](std::uint32_t node) { return node == kNone ? std::span<const Spoke>() : facet.spokes_at(node); };
     for (std::uint32_t k = 0; k < 3; ++k) {
       std::uint32_t dart = side_first_[k];
-      for (const Station& station : stations_[3 * f + k]) {
+      for (const Station& station : stations(f, k)) {
         link_at(dart, dart + 1, spokes_of(station.node_left));
         ++dart;
       }
@@ -353,8 +374,11 @@ class Subdivider {
   predicates::Decisions& decisions_;
   EdgeJoiner joiner_;
   Subdivision s_;
-  std::vector<std::vector<Station>> stations_;  // per facet and side; node_left is the facet's own node
-  std::vector<std::uint8_t> open_;              // per facet and side: nothing is known beyond
+  std::vector<std::uint8_t> to_ask_;  // per facet: whether borders alone are enough is not known
+  std::vector<Station> stations_;
+  std::vector<std::array<std::uint32_t, 2>> stations_of_;  // per facet and side: a range
+  std::vector<std::uint8_t> open_;                         // per facet and side: nothing is known beyond
+  Joint joint_;                                            // of the edge at hand
   // of the facet whose darts are being made
   std::vector<std::uint32_t> node_place_, arc_dart_;
   std::array<std::uint32_t, 3> side_first_{};

@@ -125,7 +125,7 @@ class EdgeJoiner {
  public:
   EdgeJoiner(const DiagramInput& in, predicates::Decisions& decisions) : in_(in), decisions_(decisions) {}
   /// h: the half-edge of the left facet; the right one has its twin.
-  Joint join(HalfedgeId h, const Skeleton& left, const Skeleton& right);
+  void join(HalfedgeId h, const Skeleton& left, const Skeleton& right, Joint& joint);
   /// Whether either facet shows the same label sets there, between the same essential events by identity.
   bool are_identical(HalfedgeId h, const Skeleton& left, const Skeleton& right) const;
   /// Whether a site of one facet and a site of a neighbour facet over half-edge h of the former are one wave, by identity.
@@ -148,7 +148,10 @@ class EdgeJoiner {
 
   const DiagramInput& in_;
   predicates::Decisions& decisions_;
-  mutable SideView reversed_;  // of the right facet of the edge at hand
+  // of the edge at hand
+  mutable SideView reversed_;  // of the right facet
+  std::vector<std::size_t> left_events_, right_events_;
+  std::vector<Station> all_stations_;
 };
 
 /// A piece of a GVD edge inside one facet or along one edge. It runs along its dart; the twin dart lies on the other side.

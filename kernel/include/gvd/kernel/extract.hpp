@@ -48,6 +48,8 @@ struct DiagramInput {
   std::function<WindowOrigin(WindowId)> window;
   /// Whether a wave of the facet of a half-edge and one of the facet of its twin are as far all along the edge, by algebra: true is a proof. May be empty.
   std::function<bool(HalfedgeId, const FacetSite&, const FacetSite&)> as_far_along{};
+  /// Called once before the waves are asked for their precise numbers, maybe beside other work. May be empty.
+  std::function<void()> prepare_points{};
 };
 
 /// Joins the tessellated facets to the diagram of the input mesh (docs/diagram.md).
@@ -56,7 +58,7 @@ struct DiagramInput {
 /// proved, and each facet whose tessellation is undecided, is listed in `decisions` and in `Diagram::undecided_faces`; GVD edges
 /// that reach such a facet end there
 /// (`Diagram::open_ends`).
-/// The result does not depend on the number of threads. Points are built with tbb::parallel_for; limit it with tbb::task_arena or
+/// The result does not depend on the number of threads. It uses TBB; limit it with tbb::task_arena or
 /// tbb::global_control.
 /// Throws InternalError if the result is not a subdivision of the surface (Euler's formula, ends of edges, dual edges): always
 /// checked. Cost: linear in the size of the refined mesh, plus O(n log n) for the n points of the diagram, each evaluated in
