@@ -58,27 +58,29 @@ bool BorderOutline::is_uniform(const Part& part) {
     if (labels_[other] == part.at_begin) continue;
     const auto& stretch = filter_[other].stretch[side_];
     const double begin = std::max(part.begin, stretch.low), end = std::min(part.end, stretch.high);
-    if (begin <= end && !keep_off(part, other, begin, end)) return false;
+    constexpr int kHalvings = 3;
+    if (begin <= end && !keep_off(part, other, begin, end, kHalvings)) return false;
   }
   return true;
 }
 
 /// Whether waves of the label set of the part, one after the other, are seen and certainly nearer than `other` from `begin` to `end`.
-bool BorderOutline::keep_off(const Part& part, std::uint32_t other, double begin, double end) {
+bool BorderOutline::keep_off(const Part& part, std::uint32_t other, double begin, double end, int halvings) {
   for (std::uint32_t guard = 0; guard < contenders_.size(); ++guard) {
     if (labels_[guard] != part.at_begin || !sees(guard, begin, begin)) continue;
     const double to = std::min(end, filter_[guard].seen[side_].high);
     if (to <= begin && begin < end) continue;
     ++decisions_;
     const bool farther = (guard == part.nearer && other == part.farther) || is_farther(guard, other, begin, to);
-    if (farther && (to == end || keep_off(part, other, to, end))) return true;
+    if (farther && (to == end || keep_off(part, other, to, end, 0))) return true;
   }
-  return false;
+  const double middle = 0.5 * (begin + end);
+  return halvings > 0 && keep_off(part, other, begin, middle, halvings - 1) && keep_off(part, other, middle, end, halvings - 1);
 }
 
 bool BorderOutline::is_farther(std::uint32_t guard, std::uint32_t other, double begin, double end) {
   signs_.look_from(side_, guard);
-  return signs_.constant_sign(other, begin, end, 1) == robust::Sign::positive;
+  return signs_.constant_sign(other, begin, end, 0) == robust::Sign::positive;
 }
 
 /// Looks for the one place where the label set changes: the tie of the waves that are nearest there, of either set.

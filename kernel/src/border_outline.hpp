@@ -49,7 +49,7 @@ class BorderOutline {
   bool cross(const Part& part, int halvings);
   bool is_clear(std::uint32_t from, std::uint32_t to, const Place& at);
   bool is_farther(std::uint32_t guard, std::uint32_t other, double begin, double end);
-  bool keep_off(const Part& part, std::uint32_t other, double begin, double end);
+  bool keep_off(const Part& part, std::uint32_t other, double begin, double end, int halvings);
   bool sees(std::uint32_t wave, double begin, double end) const { return filter_[wave].seen[side_].contains(begin, end); }
   bool misses(std::uint32_t wave, double begin, double end) const {
     return end < filter_[wave].stretch[side_].low || filter_[wave].stretch[side_].high < begin;

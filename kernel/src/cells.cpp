@@ -1,6 +1,7 @@
 #include "cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -143,10 +144,11 @@ class EulerCount {
 
  private:
   /// Adds a cell of the subdivision, whose closure in the regions of these label sets it is.
-  void add(std::vector<LabelSetId>& labels, std::int64_t sign) {
-    std::sort(labels.begin(), labels.end());
-    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-    if (!labels.empty() && labels.back() == kNone) labels.pop_back();
+  void add(std::span<const LabelSetId> around, std::int64_t sign) {
+    auto& labels = labels_;
+    labels.clear();
+    for (const LabelSetId l : around)
+      if (l != kNone && std::find(labels.begin(), labels.end(), l) == labels.end()) labels.push_back(l);
     if (labels.empty()) return;
     of_surface += sign;
     for (const LabelSetId l : labels) of_labels[l] += sign;
@@ -212,8 +214,7 @@ class EulerCount {
       const Dart& dart = s_.darts[d];
       if (dart.twin != kNone && dart.twin < d) continue;
       const LabelSetId beyond = dart.twin == kNone ? dart.labels : s_.darts[dart.twin].labels;
-      labels_.assign({dart.labels, beyond});
-      dart.labels == beyond ? add_inside(beyond, -1) : add(labels_, -1);
+      dart.labels == beyond ? add_inside(beyond, -1) : add(std::array{dart.labels, beyond}, -1);
     }
   }
 
@@ -243,13 +244,9 @@ class EulerCount {
     std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
     for (const auto& [place, labels] : around) sorted[fill[place]++] = labels;
     for (std::size_t p = 0; p < s_.places.size(); ++p) {
-      const auto begin = sorted.begin() + start[p], end = sorted.begin() + start[p + 1];
-      if (begin != end && std::all_of(begin, end, [&](LabelSetId labels) { return labels == *begin; })) {
-        add_inside(*begin, 1);
-        continue;
-      }
-      labels_.assign(begin, end);
-      add(labels_, 1);
+      const auto labels = std::span(sorted).subspan(start[p], start[p + 1] - start[p]);
+      const bool one = !labels.empty() && std::all_of(labels.begin(), labels.end(), [&](LabelSetId l) { return l == labels.front(); });
+      one ? add_inside(labels.front(), 1) : add(labels, 1);
     }
   }
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
@@ -86,9 +87,10 @@ class Solver {
   bool refine_mesh() {
     s_.refined = refine(s_.input, sources_, s_.where);
     s_.parts = FaceParts(s_.input, s_.refined);
-    s_.frames = std::make_unique<Frames>(s_.refined);
-    // As in the input, whose corners have shorter numbers; what is inserted lies inside a face or an edge.
-    s_.kinds = classify_vertices(s_.input, s_.decisions);
+    tbb::task_arena(threads_to_use()).execute([&] {
+      // Vertices as in the input, whose corners have shorter numbers; what is inserted lies inside a face or an edge.
+      tbb::parallel_invoke([&] { s_.frames = std::make_unique<Frames>(s_.refined); }, [&] { s_.kinds = classify_vertices(s_.input, s_.decisions); });
+    });
     s_.kinds.resize(s_.refined.vertex_count(), VertexKind::flat);
     if (s_.frames->has_underflow())
       predicates::undecided(s_.decisions, predicates::Predicate::window_orientation,
@@ -132,6 +134,7 @@ class Solver {
   }
 
   bool resolve_vertices() {
+    if (threads_to_use() > 1 && !make_frames_in_double_double()) return false;
     s_.resolution = std::make_unique<Resolution>(*s_.frames, s_.field, s_.source_vertices, s_.label_sets);
     s_.resolution->resolve(s_.decisions);
     if (!options_.diagram) s_.resolution->forget_images();
@@ -169,6 +172,12 @@ class Solver {
     }
     for (const auto& d : decisions) s_.decisions.merge(d);
     return true;
+  }
+
+  /// Nearly all faces lie in a strip that is unfolded again: those of one thread alone are made on demand.
+  bool make_frames_in_double_double() {
+    return in_parallel(s_.refined.face_count(),
+                       [&](std::size_t f, predicates::Decisions&) { s_.frames->in_double_double(static_cast<HalfedgeId>(3 * f)); });
   }
 
   bool round_distances() {

@@ -32,7 +32,12 @@ UnfoldedWindows::Entry UnfoldedWindows::make(const Frames& frames, const Distanc
   }
   const bool left = side == Mesh::prev(field.windows[record.parent].halfedge());
   Entry entry = *parent;
-  predicates::unfold_step(entry.at, frames(side), left, record.apex_in_cone(), unit);
+  const auto& frame = frames(side);
+  const double turn = predicates::length_bound(left ? frame.v : frame.u, frame.y);  // one for all three
+  predicates::unfold_step_by<true>(entry.at, left, record.apex_in_cone(), [&](const predicates::Disc<double>& z) {
+    const auto to = left ? cross_left(z.mid, frame) : cross_right(z.mid, frame);
+    return predicates::Disc<double>{to, predicates::radius_after(z, to, turn, unit)};
+  });
   const std::size_t c = left ? 1 : 0;  // the cone vertex on the side that is left
   entry.bounds_edge[c] = record.apex_in_cone();
   if (record.apex_in_cone()) entry.bound[c] = record.parent;
