@@ -97,7 +97,7 @@ void diagram(State& state) {
   solve_and_report(state, st_helens(), kernel::random_surface_sources(st_helens(), source_count(state), kSeed), {});
 }
 
-/// The same on two threads: the phases that use them are tessellation, extraction and rounding.
+/// The same on two threads, which all phases but the propagation use.
 void diagram_two_threads(State& state) {
   kernel::SolveOptions options;
   options.threads = 2;

@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gvd/robust/double_pair.hpp"
+
 namespace gvd::kernel {
 
 using predicates::Bounded;
+using robust::DoublePair;
 using robust::MaybeSign;
 using robust::Sign;
+
+namespace {
+
+DoublePair root(DoublePair x) { return DoublePair{std::sqrt(x[0]), std::sqrt(x[1])}; }
+
+}  // namespace
 
 /// A parent wins up to its boundary ray. Along the side over which it comes in, the cone begins at ray 0 and ends at ray 1; along the others
 /// the other way round.
@@ -152,24 +161,23 @@ MaybeSign OvertakingFilter::constant_sign(std::uint32_t to, double begin, double
   const auto& side = filter_.side(side_);
   const predicates::DoublePoint p = side.at(begin), q = side.at(end);
   struct Along {
-    double at_begin, at_end, fall_before, rise_after;  ///< the distance, and what its tangents change over the stretch
+    DoublePair at, rise;  ///< at both ends: the distance, and by how much its tangent rises over the stretch
   };
   const double length = end - begin;
   const auto along = [&](const predicates::DoubleWave& wave) {
-    const double px = p.x - wave.image.x, py = p.y - wave.image.y, qx = q.x - wave.image.x, qy = q.y - wave.image.y;
-    const double rp = std::sqrt(px * px + py * py), rq = std::sqrt(qx * qx + qy * qy);
+    const DoublePair x = DoublePair{p.x, q.x} - wave.image.x, y = DoublePair{p.y, q.y} - wave.image.y, reach = root(x * x + y * y);
     const double dx = side.direction.x * length, dy = side.direction.y * length;
-    return Along{wave.weight + rp, wave.weight + rq, (dx * qx + dy * qy) / rq, (dx * px + dy * py) / rp};
+    return Along{wave.weight + reach, (dx * x + dy * y) / reach};
   };
   const Along of_a = along(a), of_b = along(b);
-  const Bounded at_begin = predicates::difference(a, of_a.at_begin, b, of_b.at_begin), at_end = predicates::difference(a, of_a.at_end, b, of_b.at_end);
+  const Bounded at_begin = predicates::difference(a, of_a.at[0], b, of_b.at[0]), at_end = predicates::difference(a, of_a.at[1], b, of_b.at[1]);
   // Of the tangent's rise over the stretch, 16 u of its length are lost to rounding.
   const double error = at_begin.error + at_end.error + 4 * side.error + 16 * predicates::kUnit * (side.length * length + 2 * side.error);
   const bool ahead = at_begin.value > error && at_end.value > error;
   if (!ahead && !(at_begin.value < -error && at_end.value < -error)) return std::nullopt;
   const Along &convex = ahead ? of_b : of_a, &other = ahead ? of_a : of_b;
   const Sign sign = ahead ? Sign::positive : Sign::negative;
-  if (convex.at_begin + convex.rise_after - other.at_end > error || convex.at_end - convex.fall_before - other.at_begin > error) return sign;
+  if (convex.at[0] + convex.rise[0] - other.at[1] > error || convex.at[1] - convex.rise[1] - other.at[0] > error) return sign;
   const double middle = 0.5 * (begin + end);
   if (halvings == 0 || constant_sign(to, begin, middle, halvings - 1) != sign || constant_sign(to, middle, end, halvings - 1) != sign) return std::nullopt;
   return sign;
@@ -183,14 +191,13 @@ std::optional<OvertakingFilter::Place> OvertakingFilter::locate(std::uint32_t to
   constexpr int kMostSteps = 12;
   for (int step = 0; step < kMostSteps; ++step) {
     const auto p = side.at(t);
-    const double ax = p.x - a.image.x, ay = p.y - a.image.y, bx = p.x - b.image.x, by = p.y - b.image.y;
-    const double ra = std::sqrt(ax * ax + ay * ay), rb = std::sqrt(bx * bx + by * by);
-    const double g = (b.weight + rb) - (a.weight + ra);
-    const double slope = (side.direction.x * bx + side.direction.y * by) / rb - (side.direction.x * ax + side.direction.y * ay) / ra;
+    const DoublePair x = p.x - DoublePair{a.image.x, b.image.x}, y = p.y - DoublePair{a.image.y, b.image.y}, reach = root(x * x + y * y);
+    const DoublePair at = DoublePair{a.weight, b.weight} + reach, rise = (side.direction.x * x + side.direction.y * y) / reach;
+    const double g = at[1] - at[0], slope = rise[1] - rise[0];
     (g > 0 ? low : high) = t;
     const double next = t - g / slope;
     if (slope < 0 && std::fabs(next - t) < 0x1p-30) {  // the next step would move by the square of that or so: close enough
-      const double error = predicates::difference(a, a.weight + ra, b, b.weight + rb).error + 2 * side.error;
+      const double error = predicates::difference(a, at[0], b, at[1]).error + 2 * side.error;
       const double margin = 2 * error / -slope + 4 * predicates::kUnit;
       const Place place{std::max(begin, next - margin), std::min(end, next + margin)};
       if (!(filter_.lead(side_, from_, to, place.low).positive() && filter_.lead(side_, from_, to, place.high).negative())) return std::nullopt;

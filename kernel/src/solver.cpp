@@ -134,7 +134,7 @@ class Solver {
   }
 
   bool resolve_vertices() {
-    if (threads_to_use() > 1 && !make_frames_in_double_double()) return false;
+    if (threads_to_use() > 1) make_frames_in_double_double();
     s_.resolution = std::make_unique<Resolution>(*s_.frames, s_.field, s_.source_vertices, s_.label_sets);
     s_.resolution->resolve(s_.decisions);
     if (!options_.diagram) s_.resolution->forget_images();
@@ -174,10 +174,11 @@ class Solver {
     return true;
   }
 
-  /// Nearly all faces lie in a strip that is unfolded again: those of one thread alone are made on demand.
-  bool make_frames_in_double_double() {
-    return in_parallel(s_.refined.face_count(),
-                       [&](std::size_t f, predicates::Decisions&) { s_.frames->in_double_double(static_cast<HalfedgeId>(3 * f)); });
+  /// Nearly all faces lie in a strip that is unfolded again; one thread alone makes their frames when it comes to them.
+  void make_frames_in_double_double() {
+    tbb::task_arena(threads_to_use()).execute([&] {
+      tbb::parallel_for(FaceId{0}, static_cast<FaceId>(s_.refined.face_count()), [&](FaceId f) { s_.frames->in_double_double(3 * f); });
+    });
   }
 
   bool round_distances() {
