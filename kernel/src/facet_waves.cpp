@@ -144,7 +144,7 @@ bool FieldWaves::arrive(WindowId window, std::uint8_t side, Arrivals& arrivals, 
   if (arrival.begin > arrival.end) return false;
   const double y2 = image.mid.y * image.mid.y;
   const auto low = [&](double x) {
-    const double dx = x - image.mid.x;
+    const double dx = x - arrival.image.x;
     const double d = arrival.weight + frame.length * std::sqrt(dx * dx + y2);
     return d * (1 - 0x1p-48) - arrival.weight_error - arrival.image_error;
   };

@@ -43,7 +43,8 @@ gvd_status guarded(const Body& body) noexcept {
 
 template <class... Pointer>
 void require(const Pointer*... pointers) {
-  if (((pointers == nullptr) || ...)) throw std::invalid_argument("null");
+  const bool all_there = (... && (pointers != nullptr));
+  if (!all_there) throw std::invalid_argument("null");
 }
 
 predicates::FaceCorners corners_of(const double c[9]) {
