@@ -92,6 +92,7 @@ class Solver {
       tbb::parallel_invoke([&] { s_.frames = std::make_unique<Frames>(s_.refined); }, [&] { s_.kinds = classify_vertices(s_.input, s_.decisions); });
     });
     s_.kinds.resize(s_.refined.vertex_count(), VertexKind::flat);
+    s_.decisions.count(static_cast<std::size_t>(predicates::Predicate::saddle), robust::Stage::identity, s_.refined.vertex_count() - s_.input.vertex_count());
     if (s_.frames->has_underflow())
       predicates::undecided(s_.decisions, predicates::Predicate::window_orientation,
                             "an edge is shorter than 2^-200 of the longest, or longer than the greatest double: beyond the range of the error bounds");
