@@ -64,7 +64,7 @@ bool BorderOutline::is_uniform(const Part& part) {
   return true;
 }
 
-/// Whether waves of the label set of the part, one after the other, are seen and certainly nearer than `other` from `begin` to `end`.
+/// Whether waves of the label set of the part, one after the other, are seen and certainly nearer than `other` from `begin` to `end`, or in each half.
 bool BorderOutline::keep_off(const Part& part, std::uint32_t other, double begin, double end, int halvings) {
   for (std::uint32_t guard = 0; guard < contenders_.size(); ++guard) {
     if (labels_[guard] != part.at_begin || !sees(guard, begin, begin)) continue;
