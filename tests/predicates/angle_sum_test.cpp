@@ -109,6 +109,52 @@ Fan random_fan(test::Random& random, std::size_t spokes, double relief, bool clo
   return fan;
 }
 
+/// All comparisons with whole numbers of quarter turns, also those that no mesh asks for.
+TEST(AngleSum, AgainstAnyNumberOfQuarterTurns) {
+  test::Random random(9);
+  int zeros = 0;
+  for (int round = 0; round < 400; ++round) {
+    Fan fan{{}, false};  // whole vectors of a few directions, in one plane or not
+    const std::size_t spokes = 2 + random.below(8);
+    const double slope = random.below(3);
+    while (fan.spokes.size() < spokes) {
+      const double x = static_cast<int>(random.below(5)) - 2, y = static_cast<int>(random.below(5)) - 2;
+      const Vector next{x, y, slope * x};
+      const auto in_line = [&](const Vector& d) { return d[0] * y == d[1] * x; };
+      if ((x == 0 && y == 0) || (!fan.spokes.empty() && in_line(fan.spokes.back()))) continue;
+      fan.spokes.push_back(next);
+    }
+    const auto corners = exact_corners(fan);
+    for (int turns = 0; turns <= 10; ++turns) {
+      const Sign truth = Truth(corners, turns).sign();
+      zeros += truth == Sign::zero;
+      expect_if_decided(double_double_compare_angle_sum(corners, turns), truth, "double_double");
+      expect_if_decided(multiprecision_compare_angle_sum(corners, turns, 256), truth, "multiprecision");
+      expect_if_decided(exact_compare_angle_sum(corners, turns), truth, "exact");
+      EXPECT_EQ(compare_angle_sum(corners, turns).sign, MaybeSign(truth)) << round << ", " << turns;
+    }
+  }
+  EXPECT_GT(zeros, 50);
+}
+
+/// Thousands of corners, whose product no double could hold.
+TEST(AngleSum, OfThousandsOfCorners) {
+  for (const double length : {1.75, 1.25}) {  // the size of each corner is not a power of two
+    Fan fan;
+    for (int i = 0; i < 4000; ++i) {  // full turn after full turn: right angles in the plane across (1, 1, -2)
+      const double s = i % 4 < 2 ? length : -length;
+      fan.spokes.push_back(i % 2 == 0 ? Vector{s, s, s} : Vector{s, -s, 0});
+    }
+    const auto corners = exact_corners(fan);
+    for (const int off : {-1, 0, 1}) {
+      const Sign truth = off < 0 ? Sign::positive : off > 0 ? Sign::negative : Sign::zero;
+      EXPECT_EQ(compare_angle_sum(corners, 4000 + off).sign, MaybeSign(truth));
+      expect_if_decided(double_double_compare_angle_sum(corners, 4000 + off), truth, "double_double");
+      expect_if_decided(multiprecision_compare_angle_sum(corners, 4000 + off, 128), truth, "multiprecision");
+    }
+  }
+}
+
 TEST(AngleSum, RandomFansAtAllScales) {
   test::Random random(1);
   for (int round = 0; round < 600; ++round) {
