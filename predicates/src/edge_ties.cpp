@@ -74,7 +74,7 @@ class EdgeComparison {
     const MaybeSign lead = maybe_sign(s);
     if (!lead) return std::nullopt;
     if (*gap == Sign::negative) return none(*lead == Sign::positive);
-    return contact(*lead);
+    return *lead == Sign::zero ? of_kind(Kind::everywhere) : contact(*lead);  // one image and one weight, under another description
   }
 
  private:

@@ -109,5 +109,91 @@ TEST(CInterface, RefusesWithoutAnException) {
   EXPECT_STREQ(gvd_stage_name(static_cast<gvd_stage>(77)), "");
 }
 
+/// Two triangles below an edge of a facet, with a source at the far corner of each.
+struct TwoBelow {
+  static constexpr double kVertices[15] = {-2, 0, 0, 2, 0, 0, 0, 4, 0, -1, -4, 0, 1, -4, 0};
+  static constexpr uint32_t kFacet[3] = {0, 1, 2}, kLeft[3] = {0, 3, 1}, kRight[3] = {0, 4, 1};
+  static constexpr double kSecondCorner[3] = {0, 1, 0}, kFacetCorners[9] = {-2, 0, 0, 2, 0, 0, 0, 4, 0};
+
+  static gvd_strip* strip(const uint32_t face[3]) {
+    gvd_strip* result = nullptr;
+    EXPECT_EQ(gvd_strip_create_indexed(kVertices, 5, face, kSecondCorner, &result), GVD_OK);
+    EXPECT_EQ(gvd_strip_cross_indexed(result, kVertices, 5, kFacet), GVD_OK);
+    return result;
+  }
+};
+
+TEST(CInterface, TiesAndConflictsOfWindowsWithCones) {
+  gvd_strip *left = TwoBelow::strip(TwoBelow::kLeft), *right = TwoBelow::strip(TwoBelow::kRight), *copy = nullptr;
+  ASSERT_EQ(gvd_strip_copy(left, &copy), GVD_OK);
+  EXPECT_EQ(gvd_strip_vertex_count(copy), 4u);
+  gvd_strip_free(left);
+  const size_t bounds[2] = {0, 2};  // the ends of the edge
+  gvd_window *a = nullptr, *b = nullptr;
+  ASSERT_EQ(gvd_window_create(copy, nullptr, bounds, &a), GVD_OK);
+  ASSERT_EQ(gvd_window_create(right, nullptr, nullptr, &b), GVD_OK);
+  const double edge[6] = {-2, 0, 0, 2, 0, 0};
+  gvd_edge_ties ties;
+  ASSERT_EQ(gvd_ties_on_edge(a, b, edge, &ties), GVD_OK);
+  EXPECT_EQ(ties.kind, GVD_TIES_POINTS);
+  ASSERT_EQ(ties.count, 1);
+  EXPECT_LE(ties.ties[0].t.lower, 0.5);
+  EXPECT_GE(ties.ties[0].t.upper, 0.5);
+  EXPECT_NEAR(ties.ties[0].t.upper, ties.ties[0].t.lower, 1e-12);
+  EXPECT_EQ(ties.ties[0].a_before, 1);
+  EXPECT_EQ(ties.ties[0].is_contact, 0);
+  gvd_conflict_verdict verdict;
+  gvd_stage stage;
+  EXPECT_EQ(gvd_conflict(TwoBelow::kFacetCorners, a, b, b, a, &verdict, &stage), GVD_OK);
+  EXPECT_EQ(verdict, GVD_NO_VERTEX) << "two of the three are one";
+  gvd_window_free(a);
+  gvd_window_free(b);
+  gvd_window_free(nullptr);
+  gvd_path_free(nullptr);
+  gvd_strip_free(right);
+  gvd_strip_free(copy);
+}
+
+TEST(CInterface, NullIsRefusedWhereverItStands) {
+  gvd_strip* strip = TwoBelow::strip(TwoBelow::kLeft);
+  gvd_path* path = nullptr;
+  gvd_window* window = nullptr;
+  ASSERT_EQ(gvd_path_create(1, &path), GVD_OK);
+  ASSERT_EQ(gvd_window_create(strip, path, nullptr, &window), GVD_OK);
+  const double *corners = TwoBelow::kFacetCorners, *weights = TwoBelow::kSecondCorner, *vertices = TwoBelow::kVertices;
+  const uint32_t* face = TwoBelow::kFacet;
+  gvd_decision d;
+  gvd_cone cone;
+  gvd_enclosure e;
+  gvd_edge_ties ties;
+  gvd_conflict_verdict verdict;
+  gvd_stage stage;
+  double value;
+  gvd_strip* made = nullptr;
+  const std::vector<gvd_status> all = {
+      gvd_strip_create(nullptr, weights, &made), gvd_strip_create(corners, nullptr, &made), gvd_strip_create(corners, weights, nullptr),
+      gvd_strip_create_indexed(nullptr, 5, face, weights, &made), gvd_strip_create_indexed(vertices, 5, nullptr, weights, &made),
+      gvd_strip_create_indexed(vertices, 5, face, nullptr, &made), gvd_strip_create_indexed(vertices, 5, face, weights, nullptr),
+      gvd_strip_copy(nullptr, &made), gvd_strip_copy(strip, nullptr), gvd_strip_cross(nullptr, corners), gvd_strip_cross(strip, nullptr),
+      gvd_strip_cross_indexed(nullptr, vertices, 5, face), gvd_strip_cross_indexed(strip, nullptr, 5, face),
+      gvd_strip_cross_indexed(strip, vertices, 5, nullptr), gvd_ray_side(nullptr, 0, 2, &d), gvd_ray_side(strip, 0, 2, nullptr),
+      gvd_cone_of(nullptr, &cone), gvd_cone_of(strip, nullptr), gvd_path_create(0, nullptr), gvd_path_add_leg(nullptr, strip, weights),
+      gvd_path_add_leg(path, nullptr, weights), gvd_path_add_leg(path, strip, nullptr), gvd_compare_lengths(nullptr, path, &d),
+      gvd_compare_lengths(path, nullptr, &d), gvd_compare_lengths(path, path, nullptr), gvd_length(nullptr, &e), gvd_length(path, nullptr),
+      gvd_rounded_length(nullptr, &value, &stage), gvd_rounded_length(path, nullptr, &stage), gvd_rounded_length(path, &value, nullptr),
+      gvd_window_create(nullptr, path, nullptr, &window), gvd_window_create(strip, path, nullptr, nullptr),
+      gvd_ties_on_edge(nullptr, window, corners, &ties), gvd_ties_on_edge(window, nullptr, corners, &ties),
+      gvd_ties_on_edge(window, window, nullptr, &ties), gvd_ties_on_edge(window, window, corners, nullptr),
+      gvd_conflict(nullptr, window, window, window, window, &verdict, &stage), gvd_conflict(corners, nullptr, window, window, window, &verdict, &stage),
+      gvd_conflict(corners, window, nullptr, window, window, &verdict, &stage), gvd_conflict(corners, window, window, nullptr, window, &verdict, &stage),
+      gvd_conflict(corners, window, window, window, nullptr, &verdict, &stage), gvd_conflict(corners, window, window, window, window, nullptr, &stage),
+      gvd_conflict(corners, window, window, window, window, &verdict, nullptr)};
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], GVD_INVALID_ARGUMENT) << i;
+  EXPECT_EQ(made, nullptr);
+  gvd_window_free(window);
+  gvd_path_free(path);
+  gvd_strip_free(strip);
+}
+
 }  // namespace
 }  // namespace gvd::predicates
