@@ -9,13 +9,13 @@
 
 namespace gvd::robust {
 
-/// The double that all members of the interval round to, if there is one.
+/// The double that all members of the interval round to, if there is one. Pre: the ends are finite.
 std::optional<double> rounded(const MpfrInterval& x);
 
 /// Whether the last bit of the significand is 0; infinity counts as even, as rounding to nearest has it.
 inline bool is_even(double x) { return (std::bit_cast<std::uint64_t>(x) & 1) == 0; }
 
-/// The correctly rounded double of an exact number, given `enclosure(bits)` (an interval of relative width at most 2^-bits) and
+/// The correctly rounded double of an exact number, given `enclosure(bits)` (an interval of relative width at most 2^-bits, finite) and
 /// `sign_of_difference(q)`, the sign of the number minus a rational. At most one exact comparison is made, with the midpoint of
 /// two doubles that the enclosure does not tell apart; empty if that has no answer.
 template <class Enclosure, class SignOfDifference>

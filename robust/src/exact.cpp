@@ -85,10 +85,9 @@ class Evaluation {
         return of(*e.left) - of(*e.right);
       case Operation::multiply:
         return of(*e.left) * of(*e.right);
-      case Operation::divide:
-        break;
+      default:
+        return of(*e.left) / of(*e.right);
     }
-    return of(*e.left) / of(*e.right);
   }
 
   int bits_;
@@ -263,8 +262,8 @@ Exact operator/(const Exact& a, const Exact& b) {
   const MaybeSign sign = b.node()->sign();
   if (!sign || *sign == Sign::zero) return Exact(NodePtr());
   if (is_plain_zero(a.node())) return a;
-  if (const RootSum *x = a.node()->sum(), *y = b.node()->sum(); x && y && is_short_product(*x, *y))
-    if (const auto divisor = inverse(*y)) return Exact(make(*x * *divisor));
+  if (const RootSum *x = a.node()->sum(), *y = b.node()->sum(); x && y)
+    if (const auto divisor = inverse(*y)) return Exact(make(*x * *divisor));  // of two terms at most
   return Exact(make(Operation::divide, a.node(), b.node()));
 }
 

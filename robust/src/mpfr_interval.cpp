@@ -79,20 +79,12 @@ MaybeSign MpfrInterval::sign() const {
   if (!low_.is_finite() || !high_.is_finite()) return std::nullopt;
   if (low_.sign() > 0) return Sign::positive;
   if (high_.sign() < 0) return Sign::negative;
-  if (low_.is_zero() && high_.is_zero()) return Sign::zero;
   return std::nullopt;
-}
-
-bool MpfrInterval::is_below_power_of_two(long exponent) const {
-  const auto below = [&](const Mpfr& end) { return end.is_zero() || (end.is_finite() && mpfr_get_exp(end.get()) <= exponent); };
-  // An end of exponent e is less than 2^e in magnitude.
-  return below(low_) && below(high_);
 }
 
 bool MpfrInterval::is_narrow(int bits) const {
   const MaybeSign known = sign();
   if (!known) return false;
-  if (*known == Sign::zero) return true;
   Mpfr width(0.0, low_.bits());
   mpfr_sub(width.get(), high_.get(), low_.get(), MPFR_RNDU);
   const Mpfr least = abs(*known == Sign::positive ? low_ : high_);
@@ -106,7 +98,6 @@ Ball<Mpfr> MpfrInterval::to_ball() const {
   mpfr_sub(to_low.get(), mid.get(), low_.get(), MPFR_RNDU);
   mpfr_sub(to_high.get(), high_.get(), mid.get(), MPFR_RNDU);
   const double rad = (to_low < to_high ? to_high : to_low).to_double(MPFR_RNDU);
-  if (!low_.is_finite() || !high_.is_finite()) return {std::move(mid), std::numeric_limits<double>::infinity()};
   return {std::move(mid), rad};
 }
 

@@ -24,12 +24,11 @@ class MpfrInterval {
   /// The roots of the non-negative part.
   friend MpfrInterval sqrt(const MpfrInterval& a);
 
-  /// Zero only for the interval [0, 0].
+  /// Of all members; never zero, which takes a proof.
   MaybeSign sign() const;
-  /// Whether every member is less than 2^exponent in magnitude.
-  bool is_below_power_of_two(long exponent) const;
-  /// high - low <= 2^-bits * the least magnitude of a member; [0, 0] is.
+  /// high - low <= 2^-bits * the least magnitude of a member, which is not zero.
   bool is_narrow(int bits) const;
+  /// Pre: the ends are finite, as those of a narrow interval are.
   Ball<Mpfr> to_ball() const;
 
  private:

@@ -16,7 +16,9 @@ bool has_small_factor(std::uint64_t n) {
 }
 
 // GMP's test (Baillie, Pomerance, Selfridge, Wagstaff) has no exception below 2^64.
-bool is_prime(std::uint64_t n) { return !has_small_factor(n) && mpz_probab_prime_p(mpz_class(n).get_mpz_t(), 1) != 0; }
+bool passes_test(const mpz_class& n) noexcept { return mpz_probab_prime_p(n.get_mpz_t(), 1) != 0; }
+
+bool is_prime(std::uint64_t n) { return !has_small_factor(n) && passes_test(n); }
 
 }  // namespace
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "perfect_square.hpp"
+
 namespace gvd::robust {
 
 namespace {
@@ -41,7 +43,7 @@ mpq_class shifted(mpq_class q, long k) {
 }
 
 bool is_square(const mpq_class& q) {  // numerator and denominator have no common factor
-  return mpz_perfect_square_p(q.get_num_mpz_t()) && mpz_perfect_square_p(q.get_den_mpz_t());
+  return is_perfect_square(q.get_num()) && is_perfect_square(q.get_den());
 }
 
 std::optional<mpq_class> rational_square_root(const mpq_class& q) {
@@ -55,10 +57,11 @@ std::optional<mpq_class> rational_square_root(const mpq_class& q) {
 bool same_square_class(const mpq_class& a, const mpq_class& b) { return sgn(a) == sgn(b) && is_square(a * b); }
 
 bool is_non_residue(const mpz_class& n, std::uint64_t p) {
-  if (const int symbol = mpz_kronecker_ui(n.get_mpz_t(), p); symbol != 0) return symbol < 0;
+  const auto symbol = [p](const mpz_class& m) noexcept { return mpz_kronecker_ui(m.get_mpz_t(), p); };
+  if (const int of_n = symbol(n); of_n != 0) return of_n < 0;
   mpz_class rest;
   mpz_remove(rest.get_mpz_t(), n.get_mpz_t(), mpz_class(p).get_mpz_t());
-  return mpz_kronecker_ui(rest.get_mpz_t(), p) < 0;
+  return symbol(rest) < 0;
 }
 
 std::uint64_t square_class_signature(const mpq_class& q) {

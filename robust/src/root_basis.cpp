@@ -1,6 +1,7 @@
 #include "root_basis.hpp"
 
 #include "gvd/robust/rational.hpp"
+#include "perfect_square.hpp"
 #include "prime_field.hpp"
 
 namespace gvd::robust {
@@ -24,7 +25,7 @@ RootBasis::Product RootBasis::root(const mpz_class& radicand) {
       others *= members_[i];
     }
     const mpz_class square = radicand * others;
-    if (mpz_perfect_square_p(square.get_mpz_t()) != 0) {
+    if (is_perfect_square(square)) {
       result.factor = mpq_class(sqrt(square), others);
       result.factor.canonicalize();
       return result;

@@ -4,6 +4,7 @@
 
 #include "correct_rounding.hpp"
 #include "gvd/robust/rational.hpp"
+#include "perfect_square.hpp"
 #include "root_sum_interval.hpp"
 
 namespace gvd::robust {
@@ -49,7 +50,7 @@ void RootSum::add_class(const mpq_class& coefficient, const mpz_class& radicand,
       term->coefficient += coefficient;
     } else {
       const mpz_class product = radicand * term->radicand;
-      if (!mpz_perfect_square_p(product.get_mpz_t())) continue;
+      if (!is_perfect_square(product)) continue;
       term->coefficient += coefficient * mpq_class(sqrt(product)) / term->radicand;
     }
     if (sgn(term->coefficient) == 0) terms_.erase(term);
@@ -123,7 +124,7 @@ void RootSum::add_product(const Term& x, const Term& y) {
   const mpz_class radicand = (x.radicand / common) * (y.radicand / common);
   const mpq_class coefficient = x.coefficient * y.coefficient * common;
   const std::uint64_t signature = x.signature ^ y.signature;
-  if (signature == 0 && mpz_perfect_square_p(radicand.get_mpz_t()))
+  if (signature == 0 && is_perfect_square(radicand))
     constant_ += coefficient * sqrt(radicand);
   else
     add_class(coefficient, radicand, signature);

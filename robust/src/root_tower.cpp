@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gvd/robust/rational.hpp"
+#include "perfect_square.hpp"
 
 namespace gvd::robust {
 
@@ -125,7 +126,7 @@ std::optional<TowerFraction> RootTower::root_in_field(const TowerElement& x, int
   if (is_exhausted()) return std::nullopt;
   if (level == 0) {
     work_ += 20 + static_cast<double>(mpz_size(x.integer().get_mpz_t()));
-    if (!mpz_perfect_square_p(x.integer().get_mpz_t())) return std::nullopt;
+    if (!is_perfect_square(x.integer())) return std::nullopt;
     return TowerFraction{mpz_class(sqrt(x.integer()))};
   }
   if (x.level() > 0 && is_certainly_no_square(x)) return std::nullopt;
@@ -149,7 +150,7 @@ std::optional<TowerFraction> RootTower::root_in_field(const TowerElement& x, int
   for (const TowerElement& norm : {n->numerator, negate(n->numerator)}) {
     const TowerElement sum = add(a, norm);                                   // 2 s^2, times the denominator of n
     const auto root = root_in_field(multiply(sum, half), level - 1);  // s times `half`
-    if (!root || root->numerator.is_zero() || is_exhausted()) continue;
+    if (!root || is_exhausted()) continue;
     // s + b / (2 s) sqrt g = (2 s^2 + b sqrt g) / (2 s)
     const TowerElement numerator = multiply(TowerElement(level, sum, multiply(x.b(), n->denominator)), root->denominator);
     return reduced({numerator, root->numerator});

@@ -6,7 +6,6 @@
 namespace gvd::robust {
 
 std::optional<double> rounded(const MpfrInterval& x) {
-  if (!x.low().is_finite() || !x.high().is_finite()) return std::nullopt;
   const double low = x.low().to_double();
   if (low != x.high().to_double()) return std::nullopt;
   return low + 0.0;

@@ -98,6 +98,18 @@ TYPED_TEST(BallOf, ProductsWithAnExactDoubleContainTheTruth) {
   }
 }
 
+/// Powers of two that no double is.
+TYPED_TEST(BallOf, ScaledBeyondTheRangeOfDouble) {
+  using B = Ball<TypeParam>;
+  for (const int k : {1030, 1100, 2000}) {
+    EXPECT_TRUE(contains(B(TypeParam(0x1p-1000), 0x1p-1040).scaled(k), power_of_two(k - 1000)) || !B(0x1p-1000).scaled(k).is_finite());
+    EXPECT_TRUE(contains(B(TypeParam(0x1p1000), 0x1p960).scaled(-k), power_of_two(1000 - k)));
+    EXPECT_EQ(maybe_sign(B(0.0).scaled(k)), Sign::zero);
+    EXPECT_EQ(maybe_sign(B(0.0).scaled(-k)), Sign::zero);
+  }
+  EXPECT_TRUE(contains(B(TypeParam(0x1p-1000), 0).scaled(1030), power_of_two(30)));
+}
+
 TYPED_TEST(BallOf, RootsContainTheRootsOfTheNonNegativePart) {
   int known = 0;
   for (int i = 0; i < this->kRounds; ++i) {

@@ -69,7 +69,7 @@ TEST(Exact, UndefinedStaysUndefined) {
   const Exact zero = root(8) - 2 * root(2), hidden_zero = root(2) + root(3) - sqrt(5 + 2 * root(6));
   for (const Exact& x : {1 / zero, 1 / hidden_zero, zero / zero, sqrt(Exact(-1.0)), sqrt(root(2) - root(3)), Exact(kInfinity),
                          Exact(std::numeric_limits<double>::quiet_NaN())}) {
-    for (const Exact& y : {x, -x, x + 1, 1 - x, x * 0.0, 0.0 * x, 1 / x, x / 2, sqrt(x), abs(x), square(x), x - x, x.scaled(3)}) {
+    for (const Exact& y : {x, -x, x + 1, 1 - x, x * 0.0, 0.0 * x, 1 / x, x / 2, sqrt(x), abs(x), square(x), x - x, 1 + x, root(2) - x, x.scaled(3)}) {
       EXPECT_FALSE(y.is_defined());
       EXPECT_FALSE(maybe_sign(y));
       EXPECT_FALSE(rounded(y));
@@ -151,6 +151,11 @@ TEST(Exact, RationalsInDisguiseAreExact) {
   EXPECT_EQ(((1 + root(2)) * (1 - root(2))).rational(), mpq_class(-1));
   EXPECT_EQ(sqrt(Exact(mpq_class(9, 4))).rational(), mpq_class(3, 2));
   EXPECT_FALSE(root(2).rational());
+  const auto [low, high] = *(root(2) * root(8)).bounds(64);
+  EXPECT_EQ(low, 4);
+  EXPECT_EQ(high, 4);
+  EXPECT_FALSE((Exact(1.0) / sqrt(1 + root(2))).rational());
+  EXPECT_EQ(maybe_sign(Exact(1.0) / sqrt(1 + root(2)) - sqrt(root(2) - 1)), Sign::zero) << "a sum divided by another number";
 }
 
 TEST(Exact, RoundsMidpointsToEven) {
@@ -195,6 +200,43 @@ TEST(Exact, SignsOutOfReachAreEmptyNotZero) {
   EXPECT_FALSE(maybe_sign(forth - back));
   EXPECT_FALSE(rounded(forth - back));
   EXPECT_FALSE((1 / (forth - back)).is_defined());
+  EXPECT_FALSE((forth - back).bounds(64));
+  EXPECT_FALSE((forth - back).enclosure(64).is_finite());
+  EXPECT_FALSE(sqrt(forth - back).is_defined());
+  const Exact near_midpoint = forth - back + Exact(1 + power_of_two(-53));
+  EXPECT_EQ(maybe_sign(near_midpoint), Sign::positive);
+  EXPECT_FALSE(rounded(near_midpoint)) << "on which side of the midpoint it lies is out of reach";
+}
+
+TEST(Exact, NumbersTooLargeForTheTowerAreOutOfReach) {
+  // Zero by construction, but a product of two such numbers is more work than is allowed.
+  mpz_class large;
+  mpz_ui_pow_ui(large.get_mpz_t(), 3, 1700000);
+  const Exact c{mpq_class(large)}, nested = sqrt(1 + root(2));
+  EXPECT_FALSE(maybe_sign((c * nested) * (c * nested) - c * c * (1 + root(2))));
+  const Exact three_roots = 1 + root(2) + root(3);  // its square is no number of one root
+  EXPECT_FALSE(maybe_sign(sqrt(c * c * three_roots * three_roots) - c * three_roots));
+  EXPECT_EQ(maybe_sign(sqrt(three_roots * three_roots) - three_roots), Sign::zero);
+}
+
+TEST(Exact, SignsThatNeedMoreBitsThanTheirDivisors) {
+  // 128 bits show neither the sign of the divisor nor that of what a root is taken of.
+  const Exact tiny = sqrt(5 + 2 * root(6) + Exact(power_of_two(-300))) - root(2) - root(3);
+  const Exact large = 1 / tiny;
+  EXPECT_EQ(maybe_sign(large - Exact(power_of_two(290))), Sign::positive);
+  EXPECT_EQ(maybe_sign(large * large - large), Sign::positive);
+  EXPECT_EQ(maybe_sign(sqrt(large) - 1), Sign::positive);
+  EXPECT_EQ(maybe_sign(sqrt(tiny) - Exact(power_of_two(-100))), Sign::negative);
+  EXPECT_EQ(maybe_sign(large * tiny - 1), Sign::zero);
+}
+
+TEST(Exact, RootsThatPrimesOfTheTowerDivide) {
+  // Modulo such a prime the root vanishes: that image of the tower shows nothing, and another must.
+  for (const std::uint64_t p : signature_primes()) {
+    const Exact a = 1 + sqrt(Exact(mpq_class(p))), b = 2 + sqrt(Exact(mpq_class(p)));
+    ASSERT_EQ(maybe_sign(sqrt(a) * sqrt(b) - sqrt(a * b)), Sign::zero) << p;
+    ASSERT_EQ(maybe_sign(sqrt(a) * sqrt(b) - sqrt(a * b + Exact(power_of_two(-400)))), Sign::negative) << p;
+  }
 }
 
 TEST(Exact, NumbersMoveBetweenThreads) {

@@ -40,6 +40,11 @@ TEST(Mpfr, RoundingErrorsBeyondTheRangeOfDoubleAreRoundedUp) {
   EXPECT_EQ(small.rounding_error(0), 0);
   const Mpfr large = Mpfr(mpq_class(mpq_class(1, 3) * power_of_two(3000)), 64, &ternary);
   EXPECT_EQ(large.rounding_error(ternary), std::numeric_limits<double>::infinity());
+  const Mpfr tiny = Mpfr(1.0).scaled(-1000000000);  // its square is below the range of MPFR
+  const Mpfr square = Mpfr::multiply(tiny, tiny, ternary);
+  EXPECT_TRUE(square.is_zero());
+  EXPECT_NE(ternary, 0);
+  EXPECT_EQ(square.rounding_error(ternary), 0x1p-1074);
 }
 
 TEST(Mpfr, ToDoubleIsNearestAlsoForSubnormals) {

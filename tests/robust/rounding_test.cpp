@@ -61,6 +61,7 @@ TYPED_TEST(RoundingOf, NothingKnownRoundsToNothing) {
   EXPECT_FALSE(rounded(B(TypeParam(1.0), kInfinity)));
   EXPECT_FALSE(rounded(B(TypeParam(1.0), std::numeric_limits<double>::quiet_NaN())));
   EXPECT_FALSE(rounded(B(1.0) / B(0.0)));
+  EXPECT_FALSE(rounded(B(TypeParam(kInfinity), 0)));
   EXPECT_EQ(rounded(B(0.0)), 0.0);
   EXPECT_EQ(rounded(B(TypeParam(-0.0), 0x1p-1074)), std::nullopt);
 }
