@@ -159,7 +159,6 @@ class Tracer {
     const Dart &a = s_.darts[dart_beside(s_, in, side)], &b = s_.darts[dart_beside(s_, out, side)];
     if (s_.facets[a.facet].waves == nullptr || s_.facets[b.facet].waves == nullptr) return std::nullopt;
     FacetWaves &wa = *s_.facets[a.facet].waves, &wb = *s_.facets[b.facet].waves;
-    if (wa.exact_frame() == nullptr || wb.exact_frame() == nullptr) return std::nullopt;
     std::vector<VertexId> shared;
     for (const VertexId v : wa.corner)
       if (std::find(wb.corner.begin(), wb.corner.end(), v) != wb.corner.end()) shared.push_back(v);

@@ -40,28 +40,26 @@ std::optional<std::vector<Point>> exact_spokes(const Mesh& mesh, VertexId v) {
   return exact ? std::optional(spokes) : std::nullopt;
 }
 
-/// The sign of a b - c d if it is certain.
+/// The sign of a b - c d if it is certain. Pre: nothing overflows.
 std::optional<int> sign_of_determinant(double a, double b, double c, double d) {
   const auto p = robust::two_prod(a, b), q = robust::two_prod(c, d);
   const auto is_exact = [](double x, double y, double product) { return x == 0 || y == 0 || std::abs(product) > 0x1p-960; };
-  if (!is_exact(a, b, p.hi) || !is_exact(c, d, q.hi) || !std::isfinite(p.lo) || !std::isfinite(q.lo)) return std::nullopt;
+  if (!is_exact(a, b, p.hi) || !is_exact(c, d, q.hi)) return std::nullopt;
   if (p.hi != q.hi) return p.hi > q.hi ? 1 : -1;  // hi is the nearest double: monotone
   return p.lo > q.lo ? 1 : p.lo < q.lo ? -1 : 0;
 }
 
-/// All spokes in the plane across axis k.
+/// All spokes in the plane across axis k. No two neighbours are in line, as every face has an area.
 bool is_straight_across(const std::vector<Point>& spokes, std::size_t k, bool boundary) {
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
   const auto turn = [&](const Point& d, const Point& e) { return sign_of_determinant(d[i], e[j], d[j], e[i]); };
   const auto first = turn(spokes[0], spokes[1]);
-  if (!first || *first == 0) return false;
+  if (!first) return false;
   const std::size_t corners = boundary ? spokes.size() - 1 : spokes.size();
   for (std::size_t c = 1; c < corners; ++c) {
     if (turn(spokes[c], spokes[(c + 1) % spokes.size()]) != first) return false;
   }
-  if (!boundary) return true;
-  const Point &d = spokes.front(), &e = spokes.back();
-  return turn(d, e) == 0 && (d[i] != 0 ? (d[i] > 0) != (e[i] > 0) : (d[j] > 0) != (e[j] > 0));
+  return !boundary || turn(spokes.front(), spokes.back()) == 0;
 }
 
 /// The spokes in units of one power of two, if they are integers of at most kBits bits.
@@ -94,18 +92,13 @@ bool is_straight(const std::vector<Vector>& spokes, bool boundary) {
     if (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2] != 0) return false;
   }
   // Normals of the corners are multiples of one another: one entry that is not zero compares their directions.
-  const auto nonzero = std::find_if(normal.begin(), normal.end(), [](Wide x) { return x != 0; });
-  if (nonzero == normal.end()) return false;
-  const auto k = static_cast<std::size_t>(nonzero - normal.begin());
+  const auto k = static_cast<std::size_t>(std::find_if(normal.begin(), normal.end(), [](Wide x) { return x != 0; }) - normal.begin());
   const std::size_t corners = boundary ? spokes.size() - 1 : spokes.size();
   for (std::size_t c = 1; c < corners; ++c) {
     const Wide other = cross(spokes[c], spokes[(c + 1) % spokes.size()])[k];
-    if (other == 0 || (other > 0) != (normal[k] > 0)) return false;
+    if ((other > 0) != (normal[k] > 0)) return false;
   }
-  if (!boundary) return true;
-  const Vector &d = spokes.front(), &e = spokes.back();
-  const Wide dot = Wide{d[0]} * e[0] + Wide{d[1]} * e[1] + Wide{d[2]} * e[2];
-  return cross(d, e) == std::array<Wide, 3>{} && dot < 0;
+  return !boundary || cross(spokes.front(), spokes.back()) == std::array<Wide, 3>{};
 }
 
 }  // namespace

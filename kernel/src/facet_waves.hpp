@@ -37,8 +37,9 @@ class FieldWaves final : public FacetWaves {
 
   bool exact_is_cheap() override;
   std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> which) override;
+  // Who is asked for its cone or its image is a window; only relays and mirror images may be corners.
   bool is_own_relay(std::size_t parent, std::size_t relay) override;
-  bool is_at_cone_vertex(std::size_t parent, std::size_t relay) override { return sites[parent].window != kNone && has_relay_on_strip(parent, relay); }
+  bool is_at_cone_vertex(std::size_t parent, std::size_t relay) override { return has_relay_on_strip(parent, relay); }
   bool have_one_image(std::size_t left, std::size_t right) override;
   bool share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) override;
   bool is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) override;

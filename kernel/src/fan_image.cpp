@@ -43,7 +43,6 @@ PlanePoint<Exact> seen_from(FacetWaves& waves, std::uint32_t site, std::size_t k
 
 std::optional<bool> have_one_image_round(const Mesh& mesh, VertexId v, FacetWaves& a, std::uint32_t site_a, FacetWaves& b,
                                          std::uint32_t site_b) {
-  if (a.exact_frame() == nullptr || b.exact_frame() == nullptr) return std::nullopt;
   const std::size_t ka = corner_of(a, v), kb = corner_of(b, v);
   const HalfedgeId last = 3 * b.face + static_cast<HalfedgeId>(kb);
   HalfedgeId h = 3 * a.face + static_cast<HalfedgeId>(ka);

@@ -290,18 +290,18 @@ std::optional<std::vector<std::uint32_t>> Resolution::nearest_exactly(const std:
   return nearest;
 }
 
-/// Round both at once: the fan of one of them may be long.
+/// Round both at once: the fan of one of them may be long. Pre: there is one.
 HalfedgeId Resolution::edge_between(VertexId a, VertexId b) const {
   const Mesh& mesh = frames_.mesh();
   const auto beside = [&](HalfedgeId h, VertexId v) { return mesh.target(h) == v ? h : mesh.origin(Mesh::prev(h)) == v ? Mesh::prev(h) : kNone; };
   HalfedgeId of_a = mesh.outgoing(a), of_b = mesh.outgoing(b);
-  while (of_a != kNone || of_b != kNone) {
+  for (;;) {
+    if (of_a == kNone && of_b == kNone) throw InternalError("no edge joins vertices " + std::to_string(a) + " and " + std::to_string(b));
     for (const auto& [h, v] : {std::pair(of_a, b), std::pair(of_b, a)})
       if (const HalfedgeId found = h == kNone ? kNone : beside(h, v); found != kNone) return found;
     for (auto& [h, v] : {std::tie(of_a, a), std::tie(of_b, b)})
       if (h != kNone && (h = mesh.twin(Mesh::prev(h))) == mesh.outgoing(v)) h = kNone;
   }
-  return kNone;
 }
 
 Ball<DoubleDouble> Resolution::length(const Candidate& c, VertexId v) {
@@ -422,7 +422,7 @@ robust::MaybeSign Resolution::compare(const Path& a, const Path& b) const {
 
 bool Resolution::attains(WindowId window, VertexId v) const noexcept {
   for (std::uint32_t c = field_.first_candidate[v]; c != kNone; c = field_.candidates[c].next)
-    if (field_.candidates[c].window == window && window != kNone) return true;
+    if (field_.candidates[c].window == window) return true;
   return false;
 }
 
@@ -453,7 +453,7 @@ bool Resolution::is_as_far(WindowId window, VertexId v) const {
 /// Whether the square of an image in these sums of roots takes longer than the span test.
 bool Resolution::has_long_image(WindowId window) const {
   constexpr std::size_t kFewTerms = 4;  // chooses which proof is tried first, and no more
-  const auto at = window == kNone ? nullptr : exact_unfolding(window);
+  const auto at = exact_unfolding(window);
   return at && std::max(at->image.x.terms().size(), at->image.y.terms().size()) > kFewTerms;
 }
 

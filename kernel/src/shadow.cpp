@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
+#include "gvd/kernel/error.hpp"
 #include "gvd/predicates/filter_error.hpp"
 
 namespace gvd::kernel {
@@ -98,12 +100,8 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
       break;
     }
   }
-  if (closed) {
-    if (!first || !last) {  // no shadow could be told apart: the whole fan is safe
-      faces = fan;
-      shadow.first = shadow.last = {};
-      return;
-    }
+  if (closed) {  // a relay: there is more than half a turn on either side
+    if (!first || !last) throw InternalError("half a turn about vertex " + std::to_string(v) + " goes all the way round it");
     for (std::size_t i = *first % n;; i = (i + 1) % n) {
       faces.push_back(fan[i]);
       if (i == *last) break;

@@ -50,7 +50,7 @@ bool FieldWaves::enclose_only_flat(std::span<const HalfedgeId> a, std::span<cons
 }
 
 bool FieldWaves::have_one_image(std::size_t left, std::size_t right) {
-  if (sites[left].root != sites[right].root || sites[left].window == kNone || sites[right].window == kNone) return false;
+  if (sites[left].root != sites[right].root) return false;
   return enclose_only_flat(sides_of(strip(left)), sides_of(strip(right)));
 }
 
@@ -101,7 +101,7 @@ bool FieldWaves::share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t
 }
 
 bool FieldWaves::are_proved_one_wave(std::size_t a, std::size_t b) {
-  if (sites[a].window == kNone || sites[b].window == kNone || !resolution_.have_equal_distances(sites[a].root, sites[b].root)) return false;
+  if (!resolution_.have_equal_distances(sites[a].root, sites[b].root)) return false;
   return have_one_image_by_algebra(sides_of(strip(a)), sides_of(strip(b)));
 }
 
@@ -178,7 +178,7 @@ bool FieldWaves::show_one_image(std::span<const HalfedgeId> a, std::span<const H
 
 bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
   const FacetSite &a = sites[entering], &b = sites[other];
-  if (a.window == kNone || (b.window == kNone ? b.corner != (a.side + 2) % 3 : b.side == a.side)) return false;
+  if (b.window == kNone ? b.corner != (a.side + 2) % 3 : b.side == a.side) return false;
   if (!resolution_.have_equal_distances(a.root, b.root)) return false;
   return show_mirror_images(a.side, sides_of(strip(entering)), b.window == kNone ? Sides() : sides_of(strip(other)));
 }
@@ -186,7 +186,7 @@ bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
 bool FieldWaves::is_mirrored_at_cone_vertex(std::size_t parent, std::size_t end, std::size_t other, std::uint8_t side) {
   const FacetSite &a = sites[parent], &b = sites[other];
   const VertexId v = a.cone[end];
-  if (a.window == kNone || b.window == kNone || v == kNone || !a.attains_cone[end] || (a.side == side) == (b.side == side)) return false;
+  if (b.window == kNone || !a.attains_cone[end] || (a.side == side) == (b.side == side)) return false;
   const auto since = sides_since(a.window, v);
   if (!since || since->empty() || !resolution_.have_equal_distances(v, b.root)) return false;
   const Sides own = sides_of(strip(other));
@@ -219,7 +219,6 @@ predicates::StripProgram FieldWaves::program_beyond(std::uint8_t side, std::span
 /// The nearest way to the root of `relay` must be the parent's own, as far as that goes, and then turn about it into the strip of
 /// `relay`.
 bool FieldWaves::is_own_relay(std::size_t parent, std::size_t relay) {
-  if (sites[parent].window == kNone) return false;
   return has_relay_on_strip(parent, relay) || has_relay_on_other_way(parent, relay);
 }
 
@@ -246,7 +245,7 @@ bool FieldWaves::is_image_of_root(const Sides& way, std::size_t relay) {
 bool FieldWaves::is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) {
   const WindowId strip = sites[parent].window;
   const VertexId bound = sites[parent].cone[end], v = sites[relay].root;
-  if (strip == kNone || bound == kNone || !sites[parent].attains_cone[end] || !sides_since(strip, bound)) return false;
+  if (!sites[parent].attains_cone[end] || !sides_since(strip, bound)) return false;
   if (!has_relay_on_strip(parent, relay)) return false;
   return v == bound || comes_straight_through(v, bound, strip) || comes_straight_through(bound, v, strip);
 }

@@ -120,6 +120,52 @@ TEST(VertexKind, FoldedPlanarFans) {
   EXPECT_EQ(kinds_of(hair)[0], VertexKind::convex);
 }
 
+/// A star of faces in a plane, its first vertex inside (closed) or on the boundary, whatever its coordinates: flat.
+MeshArrays planar_star(const std::vector<std::array<double, 2>>& spokes, bool closed, std::size_t axis, Point centre = {}) {
+  MeshArrays star;
+  star.points.push_back(centre);
+  for (const auto& spoke : spokes) {
+    Point p = centre;
+    p[(axis + 1) % 3] = spoke[0];
+    p[(axis + 2) % 3] = spoke[1];
+    star.points.push_back(p);
+  }
+  const auto n = static_cast<VertexId>(spokes.size());
+  for (VertexId k = 1; k < n; ++k) star.faces.push_back({0, k, k + 1});
+  if (closed) star.faces.push_back({0, n, 1});
+  return star;
+}
+
+TEST(VertexKind, PlanarStarsThatTheQuickProofLeavesToExactNumbers) {
+  constexpr double kTiny = 0x1p-500;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Products too small to be exact; coordinates too far apart for their differences to be.
+    EXPECT_EQ(kinds_of(planar_star({{1, kTiny}, {kTiny, 1}, {-1, kTiny}, {kTiny, -1}}, true, axis))[0], VertexKind::flat);
+    EXPECT_EQ(kinds_of(planar_star({{kTiny, 1}, {-1, kTiny}, {-1, -1}, {1, -1}, {1, kTiny}}, true, axis))[0], VertexKind::flat);
+    EXPECT_EQ(kinds_of(planar_star({{1e9, 0.1}, {0.3, 1e9}, {-1e9, -0.7}, {0.9, -1e9}}, true, axis, {0.1, 0.1, 0.1}))[0], VertexKind::flat);
+    // Neighbours that only the last bits of the products tell from one line, either way round.
+    EXPECT_EQ(kinds_of(planar_star({{1, 1 - 0x1p-52}, {1 + 0x1p-52, 1}, {-1, 1}, {0, -1}}, true, axis))[0], VertexKind::flat);
+    EXPECT_EQ(kinds_of(planar_star({{0, -1}, {-1, 1}, {1 + 0x1p-52, 1}, {1, 1 - 0x1p-52}}, true, axis))[0], VertexKind::flat);
+  }
+}
+
+TEST(VertexKind, PlanarBoundariesOnEitherSideOfStraight) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double bend : {0.0, 0x1p-60, -0x1p-60}) {
+      const auto expected = bend == 0 ? VertexKind::flat : bend > 0 ? VertexKind::convex : VertexKind::relay;
+      EXPECT_EQ(kinds_of(planar_star({{1, 0}, {0, 1}, {-1, bend}}, false, axis))[0], expected) << bend;
+      EXPECT_EQ(kinds_of(planar_star({{0, 1}, {-1, 0}, {bend, -1}}, false, axis))[0], bend == 0  ? VertexKind::flat
+                                                                                   : bend > 0 ? VertexKind::relay
+                                                                                              : VertexKind::convex);
+    }
+  // The same in a plane across no axis, of whole numbers of 40 bits.
+  const double most = 0x1p38, bit = 1;
+  for (const double bend : {0.0, bit, -bit}) {
+    const MeshArrays tilted = {{{0, 0, 0}, {most, 0, 0}, {0, most, most}, {-most, bend, bend}}, {{0, 1, 2}, {0, 2, 3}}};
+    EXPECT_EQ(kinds_of(tilted)[0], bend == 0 ? VertexKind::flat : bend > 0 ? VertexKind::convex : VertexKind::relay) << bend;
+  }
+}
+
 TEST(VertexKind, ScalingTurningAndRenumberingChangeNothing) {
   test::Random random(11);
   for (const MeshArrays& arrays : {test::integer_terrain(8, 3, 5), test::random_terrain(8, 0.5, 6), test::staircase(3, 3)}) {
