@@ -16,6 +16,10 @@
 
 #include "gvd/kernel/error.hpp"
 
+#ifdef GVD_COVERAGE
+extern "C" void __gcov_dump();
+#endif
+
 namespace gvd::fuzz {
 namespace {
 
@@ -55,6 +59,9 @@ class Campaign {
       if (child < 0) throw InternalError("cannot start a process");
       if (child == 0) {
         work();
+#ifdef GVD_COVERAGE
+        __gcov_dump();  // _exit() would lose what the child has run through
+#endif
         _exit(0);
       }
       const std::string end = wait_for(child);

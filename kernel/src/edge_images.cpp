@@ -37,7 +37,8 @@ bool are_as_far_along(const Resolution& resolution, HalfedgeId h, const FacetSit
   // Each is as far as its mirror image, so the sides that the frames have above count for nothing; only that they run one way.
   const auto x = [](const EdgeImage& at, bool in_twin) { return at.image.value(in_twin ? std::array<long, 4>{0, -1, 0, 1} : std::array<long, 4>{0, 1, 0, 0}); };
   const auto y = [](const EdgeImage& at) { return at.image.value({0, 0, 1, 0}); };
-  return are_proved_equal(x(*of_left, of_left->seen_from_twin), x(*of_right, !of_right->seen_from_twin)) && are_proved_equal(y(*of_left), y(*of_right));
+  if (!are_proved_equal(x(*of_left, of_left->seen_from_twin), x(*of_right, !of_right->seen_from_twin))) return false;
+  return are_proved_equal(y(*of_left), y(*of_right));
 }
 
 }  // namespace gvd::kernel

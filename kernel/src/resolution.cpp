@@ -412,7 +412,8 @@ bool Resolution::show_end_alike(std::span<const HalfedgeId> a, std::span<const H
     return way_program(frames_, sides);
   };
   const predicates::StripProgram of_a = backwards(a), of_b = backwards(b);
-  return are_proved_equal(of_a.value({0, 1, 0, 0}), of_b.value({0, 1, 0, 0})) && are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
+  if (!are_proved_equal(of_a.value({0, 1, 0, 0}), of_b.value({0, 1, 0, 0}))) return false;
+  return are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
 }
 
 /// The sign of the difference of the lengths. Equal legs cancel, the same ones without any arithmetic.

@@ -172,8 +172,8 @@ bool FieldWaves::show_one_image(std::span<const HalfedgeId> a, std::span<const H
   const bool one_side = a.back() == b.back();
   const predicates::StripProgram of_b = one_side ? way_program(resolution_.frames(), b) : program_beyond(side_entered(a), b);
   const std::array<long, 4> x = one_side ? std::array<long, 4>{0, 1, 0, 0} : std::array<long, 4>{0, -1, 0, 1};
-  return are_proved_equal(of_a.value(x), of_b.value({0, 1, 0, 0})) &&
-         are_proved_equal(of_a.value({0, 0, one_side ? 1 : -1, 0}), of_b.value({0, 0, 1, 0}));
+  if (!are_proved_equal(of_a.value(x), of_b.value({0, 1, 0, 0}))) return false;
+  return are_proved_equal(of_a.value({0, 0, one_side ? 1 : -1, 0}), of_b.value({0, 0, 1, 0}));
 }
 
 bool FieldWaves::are_mirror_images(std::size_t entering, std::size_t other) {
@@ -199,8 +199,8 @@ bool FieldWaves::show_mirror_images(std::uint8_t side, std::span<const HalfedgeI
   const predicates::StripProgram of_a = way_program(resolution_.frames(), entering);
   const predicates::StripProgram of_b =
       other.empty() ? predicates::StripProgram(*resolution_.frames().for_program(face), side) : program_beyond(side, other);
-  return are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0})) &&
-         are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
+  if (!are_proved_equal(of_a.value({0, -1, 0, 1}), of_b.value({0, 1, 0, 0}))) return false;
+  return are_proved_equal(of_a.value({0, 0, 1, 0}), of_b.value({0, 0, 1, 0}));
 }
 
 /// The side of this facet over which a strip comes in.

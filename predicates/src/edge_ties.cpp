@@ -190,7 +190,8 @@ bool are_proved_alike(const FaceStrip& a, const std::array<std::uint8_t, 2>& pla
   if (a.crossings() == 0 || b.crossings() == 0) return false;
   robust::SquareClasses classes;
   const ProgramOnEdge first = program_on_edge(StripAccess(a), place_a, classes), second = program_on_edge(StripAccess(b), place_b, classes);
-  return are_proved_equal(first.x(), second.x()) && are_proved_equal(first.y(), second.y());
+  if (!are_proved_equal(first.x(), second.x())) return false;
+  return are_proved_equal(first.y(), second.y());
 }
 
 }  // namespace

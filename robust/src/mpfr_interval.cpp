@@ -76,7 +76,7 @@ MpfrInterval sqrt(const MpfrInterval& a) {
 }
 
 MaybeSign MpfrInterval::sign() const {
-  if (!low_.is_finite() || !high_.is_finite()) return std::nullopt;
+  if (!low_.is_finite()) return std::nullopt;  // both ends are numbers, or neither
   if (low_.sign() > 0) return Sign::positive;
   if (high_.sign() < 0) return Sign::negative;
   return std::nullopt;

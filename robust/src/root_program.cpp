@@ -76,7 +76,8 @@ bool are_proved_equal(const RootProgram& a, const RootProgram& b) {
   const bool reverse = back.common > forth.common;
   const RootProgram& other = reverse ? backwards : b;
   const Alignment& alignment = reverse ? back : forth;
-  return SpanTest(a, other, alignment, Unknowns::of_steps).proves_equal() || SpanTest(a, other, alignment, Unknowns::of_basis).proves_equal();
+  if (SpanTest(a, other, alignment, Unknowns::of_steps).proves_equal()) return true;
+  return SpanTest(a, other, alignment, Unknowns::of_basis).proves_equal();
 }
 
 }  // namespace gvd::robust

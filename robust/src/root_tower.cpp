@@ -159,7 +159,7 @@ std::optional<TowerFraction> RootTower::root_in_field(const TowerElement& x, int
 }
 
 TowerFraction RootTower::root(const TowerFraction& x) {
-  if (x.numerator.is_zero() || is_exhausted()) return {};
+  if (is_exhausted()) return {};
   const TowerElement square = multiply(x.numerator, x.denominator);  // over that of the denominator
   const int height = static_cast<int>(squares_.size());
   TowerFraction root;

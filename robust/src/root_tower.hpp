@@ -46,7 +46,7 @@ class RootTower {
   TowerFraction add(const TowerFraction& x, const TowerFraction& y);
   TowerFraction negate(const TowerFraction& x) { return {negate(x.numerator), x.denominator}; }
   TowerFraction multiply(const TowerFraction& x, const TowerFraction& y);
-  /// The non-negative root. Pre: x >= 0.
+  /// The positive root. Pre: x > 0.
   TowerFraction root(const TowerFraction& x);
   TowerFraction fraction(const RootSum& sum);
 

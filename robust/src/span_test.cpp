@@ -109,8 +109,7 @@ void SpanTest::find_uses() {
       if (first[u] == i) steps_[i].opens.push_back(u);
       if (last[u] == i) steps_[i].closes.push_back(u);
     }
-    open += steps_[i].opens.size();
-    feasible_ = feasible_ && open <= kMostOpen + 1;
+    open += steps_[i].opens.size();  // one at most: a radicand that joins the basis
     open -= steps_[i].closes.size();
     feasible_ = feasible_ && open <= kMostOpen;
   }

@@ -120,6 +120,21 @@ TEST(VertexKind, FoldedPlanarFans) {
   EXPECT_EQ(kinds_of(hair)[0], VertexKind::convex);
 }
 
+/// The same in a plane across no axis, where the quick proof is by integers.
+TEST(VertexKind, TiltedFansThatAreNotStraight) {
+  const MeshArrays folded = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}, {-1, 0, 0}, {0, 2, 2}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
+  EXPECT_EQ(kinds_of(folded)[0], VertexKind::flat) << "four right angles, two of them back";
+  // Neighbouring Fibonacci numbers: their directions differ by 2^-72 or so.
+  std::array<double, 56> f{0, 1};
+  for (std::size_t n = 2; n < f.size(); ++n) f[n] = f[n - 1] + f[n - 2];
+  const auto boundary = [&](std::size_t first, std::size_t last) {
+    return kinds_of({{{0, 0, 0}, {f[first], f[first - 1], f[first - 1]}, {-1, 1, 1}, {-f[last], -f[last - 1], -f[last - 1]}}, {{0, 1, 2}, {0, 2, 3}}})[0];
+  };
+  EXPECT_EQ(boundary(54, 54), VertexKind::flat);
+  EXPECT_EQ(boundary(54, 55), VertexKind::convex);
+  EXPECT_EQ(boundary(55, 54), VertexKind::relay);
+}
+
 /// A star of faces in a plane, its first vertex inside (closed) or on the boundary, whatever its coordinates: flat.
 MeshArrays planar_star(const std::vector<std::array<double, 2>>& spokes, bool closed, std::size_t axis, Point centre = {}) {
   MeshArrays star;
