@@ -79,7 +79,7 @@ class TurnedProduct {
     const int quarters = turn_certainly(x_, y_);
     if (quarters == 2) certain_ = false;
     quarters_ += quarters == 3 ? -1 : quarters;
-    // Corners are about 1 in size (exact_corner), but there may be thousands.
+    // Corners are about 1 in size (product_of), but there may be thousands.
     const int exponent = std::ilogb(rough(x_.mid()));
     x_ = x_.scaled(-exponent);
     y_ = y_.scaled(-exponent);
