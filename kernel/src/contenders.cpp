@@ -209,8 +209,8 @@ bool Contenders::finds_eclipse(FacetLadder& ladder, const Contender& wave, const
   const auto heavier = [&](const auto& numbers) {
     return maybe_sign(numbers.sites[relay.site]->weight - numbers.sites[wave.site]->weight);
   };
-  if (wave.root == relay.root || gap(ladder.filter()) || heavier(ladder.filter()) == Sign::negative) return false;
   const auto is_open = [&](const auto& numbers) { return gap(numbers).value_or(Sign::zero) != Sign::zero; };
+  if (wave.root == relay.root || is_open(ladder.filter()) || heavier(ladder.filter()) == Sign::negative) return false;
   if (is_open(ladder.in_double_double())) return false;
   const std::array<std::uint32_t, 3> parts = {wave.site, wave.cone_site[0], wave.cone_site[1]};  // different ones if merged
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -246,7 +246,7 @@ std::vector<predicates::Site<robust::Exact>> Contenders::where_they_part(std::sp
     if (which.size() != sites.size()) continue;
     if (auto parted = waves_.where_they_part(which); !parted.empty()) return parted;
   }
-  return {};
+  return waves_.where_they_part(sites);
 }
 
 /// Whether a line from the wave's image through the relay's may enter the facet beyond it. The relay lies outside the side that it comes in over, or
@@ -272,7 +272,7 @@ int Contenders::ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) c
     const auto side = [&](const auto& numbers) {
       return maybe_sign(cone_side(numbers, wave, end, numbers.sites[relay.site]->image));
     };
-    if (side(ladder.filter())) continue;
+    if (side(ladder.filter()).value_or(Sign::zero) != Sign::zero) continue;
     if (waves_.is_relay_on_ray(wave.cone_site[end], end, relay.site)) return static_cast<int>(end);
     if (ladder.for_each_stage([&](const auto& numbers, robust::Stage) { return side(numbers); }) == Sign::zero) return static_cast<int>(end);
   }
@@ -324,6 +324,23 @@ bool Contenders::runs_along(FacetLadder& ladder, std::size_t i, std::size_t end,
   return known->second;
 }
 
+bool Contenders::tie_on_ray_along(FacetLadder& ladder, std::size_t parent, std::size_t relay, std::size_t side) const {
+  const int ray = tangent_end(parent, relay);
+  if (ray == kNotTangent || !runs_along(ladder, parent, static_cast<std::size_t>(ray), side)) return false;
+  const auto test = [&](const auto& numbers, robust::Stage) -> std::optional<bool> {
+    const auto &from = numbers.sites[list_[parent].site]->image, &on = numbers.sites[list_[relay].site]->image;
+    bool open = false;
+    for (const std::size_t c : {side, (side + 1) % 3}) {
+      const robust::MaybeSign beyond = maybe_sign(dot(numbers.side[c].origin - on, on - from));
+      if (beyond == Sign::negative) return false;
+      open = open || !beyond;
+    }
+    return open ? std::nullopt : std::optional(true);
+  };
+  if (const auto known = test(ladder.filter(), robust::Stage::filter)) return *known;
+  return ladder.for_each_stage(test).value_or(false);
+}
+
 Sign Contenders::mirrored(std::size_t i, std::size_t j, std::size_t side) const {
   const auto proved = [&](std::size_t entering, std::size_t other) {
     if (!list_[entering].enters_over(side) || !may_be_mirror_images(list_[entering], list_[other], side)) return false;
@@ -353,6 +370,37 @@ bool Contenders::are_mirror_images(const Contender& entering, const Contender& o
       if (representative_[o] == other.site && waves_.are_mirror_images(e, o)) return true;
   }
   return false;
+}
+
+/// Whether a test holds for one of the windows merged in i and one of those in j.
+template <class Test>
+bool Contenders::any_windows(std::size_t i, std::size_t j, const Test& test) const {
+  for (std::size_t a = 0; a < waves_.sites.size(); ++a)
+    for (std::size_t b = 0; b < waves_.sites.size(); ++b)
+      if (representative_[a] == list_[i].site && representative_[b] == list_[j].site && test(a, b)) return true;
+  return false;
+}
+
+bool Contenders::mirrored_on_way(std::size_t i, std::size_t j, std::size_t side) const {
+  const auto proved = [&](std::size_t parent, std::size_t other) {
+    const auto [known, added] = on_way_.try_emplace({parent, other, side}, false);
+    if (added)
+      known->second =
+          any_windows(parent, other, [&](std::size_t a, std::size_t b) { return waves_.is_mirrored_on_strip(a, b, static_cast<std::uint8_t>(side)); });
+    return known->second;
+  };
+  return proved(i, j) || proved(j, i);
+}
+
+bool Contenders::tie_at_corner(const FacetLadder& ladder, std::size_t i, std::size_t j, std::size_t k) const {
+  if (list_[i].ties_at_corner(list_[j], k)) return true;
+  const auto& numbers = ladder.filter();
+  const auto distance = [&](std::size_t wave) { return predicates::distance(*numbers.sites[list_[wave].site], numbers.side[k].origin); };
+  if (const robust::MaybeSign known = maybe_sign(distance(i) - distance(j))) return *known == Sign::zero;
+  const auto [known, added] = at_corner_.try_emplace({std::min(i, j), std::max(i, j), k}, false);
+  if (added)
+    known->second = any_windows(i, j, [&](std::size_t a, std::size_t b) { return waves_.are_as_far_from_corner(a, b, static_cast<std::uint8_t>(k)); });
+  return known->second;
 }
 
 int Contenders::mirrored_tangent_end(std::size_t parent, std::size_t relay, std::size_t side) const {

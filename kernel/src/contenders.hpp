@@ -69,6 +69,11 @@ class Contenders {
   /// Whether the two tie along a side because their images are mirror images in it: positive if i comes in over that side, negative if j does, zero
   /// if nothing of the kind is proved.
   robust::Sign mirrored(std::size_t i, std::size_t j, std::size_t side) const;
+  /// Whether, by algebra of the strips, one of the two is along a side nowhere nearer than the other, but as near in one point of its line: the mirror image of
+  /// its image is that of a relay on the other one's way.
+  bool mirrored_on_way(std::size_t i, std::size_t j, std::size_t side) const;
+  /// Whether the two are as far from corner k, by name or by algebra of the strips.
+  bool tie_at_corner(const FacetLadder& ladder, std::size_t i, std::size_t j, std::size_t k) const;
   /// As tangent_end, for the mirror image of the relay in a side: which may be no contender.
   int mirrored_tangent_end(std::size_t parent, std::size_t relay, std::size_t side) const;
   /// Whether boundary ray `end` of i is, by identity, on one line with ray `site_end` of a site: it is that ray, or both go through one relay, or
@@ -79,11 +84,13 @@ class Contenders {
   /// Whether boundary ray `end` of i runs along a side of the facet: then every point of the side is on it. Proved from the images alone, since the
   /// numbers of such a point may be beyond all proof.
   bool runs_along(FacetLadder& ladder, std::size_t i, std::size_t end, std::size_t side) const;
+  /// Whether a relay starts on a boundary ray of its parent that runs along a side, before the side or where it begins: then they tie all along it.
+  bool tie_on_ray_along(FacetLadder& ladder, std::size_t parent, std::size_t relay, std::size_t side) const;
   std::string name(std::size_t i) const;
   /// Per site the one that stands for it: itself, or the lowest of the windows with its image.
   std::vector<std::uint32_t> representatives() const { return {representative_.begin(), representative_.end()}; }
-  /// FacetWaves::where_they_part for the sites of contenders, each by one of the windows merged in it, over a side that all come over. Empty if there
-  /// is none.
+  /// FacetWaves::where_they_part for the sites of contenders, each by one of the windows merged in it, over a side that all come over if there
+  /// is one. Empty if it has no answer.
   std::vector<predicates::Site<robust::Exact>> where_they_part(std::span<const std::uint32_t> sites) const;
 
  private:
@@ -113,12 +120,16 @@ class Contenders {
   bool may_enter_beyond(FacetLadder& ladder, const Contender& wave, const Contender& relay) const;
   int ray_through(FacetLadder& ladder, std::size_t p, std::size_t r) const;
 
+  template <class Test>
+  bool any_windows(std::size_t i, std::size_t j, const Test& test) const;
   bool may_be_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const;
   bool are_mirror_images(const Contender& entering, const Contender& other, std::size_t side) const;
 
   FacetWaves& waves_;
   std::pmr::vector<Contender> list_;
   mutable std::map<std::array<std::size_t, 3>, bool> mirrored_;  ///< asked for: i that comes in over the side, j, the side
+  mutable std::map<std::array<std::size_t, 3>, bool> on_way_;    ///< asked for: whether j is mirrored on the way of i, the side
+  mutable std::map<std::array<std::size_t, 3>, bool> at_corner_;  ///< asked for: whether i and j tie at a corner
   mutable std::map<std::array<std::size_t, 3>, bool> runs_along_;  ///< asked for: i, end of its cone, side
   std::pmr::vector<std::uint32_t> representative_;
   std::pmr::vector<Pair> pairs_;

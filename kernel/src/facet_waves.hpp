@@ -46,6 +46,8 @@ class FieldWaves final : public FacetWaves {
   bool are_proved_one_wave(std::size_t a, std::size_t b) override;
   bool are_mirror_images(std::size_t entering, std::size_t other) override;
   bool is_mirrored_at_cone_vertex(std::size_t parent, std::size_t end, std::size_t other, std::uint8_t side) override;
+  bool is_mirrored_on_strip(std::size_t parent, std::size_t other, std::uint8_t side) override;
+  bool are_as_far_from_corner(std::size_t a, std::size_t b, std::uint8_t k) override;
   /// Gives back what only the MPFR stage needs.
   void forget_frames();
 
@@ -89,6 +91,7 @@ class FieldWaves final : public FacetWaves {
   bool goes_on_as(WindowId strip, WindowId since, WindowId other) const;
   WindowId arrival(WindowId strip, VertexId v) const;
   bool has_relay_on_strip(std::size_t parent, std::size_t relay);
+  bool comes_nearest_to(WindowId strip, VertexId v) const;
   bool comes_straight_through(VertexId nearer, VertexId farther, WindowId strip) const;
   bool is_image_of_root(const Sides& way, std::size_t relay);
   bool has_relay_on_other_way(std::size_t parent, std::size_t relay);

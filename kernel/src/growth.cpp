@@ -21,6 +21,7 @@ void Growth::run(const std::vector<Occurrence>& outline) {
     if (count_[outline[i].contender]++ == 0) listed_.push_back(outline[i].contender);
   }
   vertices_.set_rivals(listed_);
+  vertices_.set_outline(result_);
   while (size_ > 2) {
     if (close_one()) continue;
     if (!ladder_.failed()) ladder_.fail(Predicate::bisector_vertex, "no region can be closed: the waves are inconsistent");

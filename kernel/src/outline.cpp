@@ -198,9 +198,12 @@ std::optional<OutlineWalk::Event> OutlineWalk::candidate(std::size_t side, std::
   const auto [a, b] = twins_that_touch(side, from, to);
   if (!contenders_.tangent(a, b)) {
     if (contenders_.eclipses(a, b) || contenders_.eclipses(b, a)) return std::nullopt;
-    if (may_touch(side, from, to))
+    if (contenders_.mirrored(from, to, side) != Sign::zero) return contact(side, from, to);
+    if (may_touch(side, from, to)) {
       if (auto touch = mirrored_touch(side, from, to); touch.is_known) return touch.event;
-    if (const auto event = contact(side, from, to); event || ladder_.failed()) return event;
+      const auto touches = do_touch(side, from, to);
+      if (touches == true || ladder_.failed()) return contact(side, from, to);
+    }
     const Event event{from, to, FacetTessellation::kNoSite, 0, false, false, std::nullopt};
     if (tie_is_at_corner(side, event)) return std::nullopt;
     return event;
@@ -230,7 +233,8 @@ bool OutlineWalk::may_touch(std::size_t side, std::uint32_t from, std::uint32_t 
   const Contender &a = contenders_[from], &b = contenders_[to];
   const auto& numbers = ladder_.filter();
   return contenders_.mirrored(from, to, side) == Sign::zero &&
-         !maybe_sign(predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root));
+         maybe_sign(predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root))
+                 .value_or(Sign::zero) == Sign::zero;
 }
 
 /// A wave against the mirror image of a relay at the vertex of its cone, which is as far as the relay all along the side: they touch on the boundary ray.
@@ -247,31 +251,41 @@ OutlineWalk::MirroredTouch OutlineWalk::mirrored_touch(std::size_t side, std::ui
   return {};
 }
 
-/// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it
-/// is seen.
-std::optional<OutlineWalk::Event> OutlineWalk::contact(std::size_t side, std::uint32_t from, std::uint32_t to) {
+/// Whether they do touch, or would on the line of the side. Empty if that is beyond proof: then it matters if `to` may come into view there.
+std::optional<bool> OutlineWalk::do_touch(std::size_t side, std::uint32_t from, std::uint32_t to) {
   const Contender &a = contenders_[from], &b = contenders_[to];
-  if (!b.has_cone) return std::nullopt;
-  const auto gap = [&](const auto& numbers) {
-    return maybe_sign(
-        predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root));
+  const auto gap = [&](const auto& numbers, robust::Stage stage) {
+    const MaybeSign sign =
+        maybe_sign(predicates::mirrored_gap(numbers.side[side], *numbers.sites[a.site], *numbers.sites[b.site], a.root == b.root));
+    if (sign) ladder_.count(Predicate::edge_tie, stage);
+    return sign;
   };
-  if (gap(ladder_.filter())) return std::nullopt;
-  const std::size_t begins = b.enters_over(side) ? 0 : 1;  // the ray where, going along the side, its cone begins
-  Event event{from, to, b.cone_site[begins], static_cast<std::uint8_t>(begins), true, true, std::nullopt};
-  if (contenders_.mirrored(from, to, side) != Sign::zero) return event;
-  const MaybeSign sign = ladder_.decide(Predicate::edge_tie, gap, [&] { return describe(side, event, "contact"); });
-  return sign == Sign::zero ? std::optional(event) : std::nullopt;
+  if (const MaybeSign sign = ladder_.for_each_stage(gap)) return *sign == Sign::zero;
+  if (contenders_.mirrored_on_way(from, to, side)) {
+    ladder_.count(Predicate::edge_tie, robust::Stage::algebra);
+    return true;
+  }
+  const Event event{from, to, FacetTessellation::kNoSite, 0, true, true, std::nullopt};
+  if (b.has_cone) ladder_.fail(Predicate::edge_tie, describe(side, event, "contact"));
+  return std::nullopt;
 }
 
-/// Two waves that tie at an end of the side by identity: whether the place where `to` overtakes `from` is that end.
+/// Mirror images in the side, say, tie along it: `from` may come over the side and `to` be the nearer one just inside as soon as it
+/// is seen. Pre: they tie along the side, or touch.
+std::optional<OutlineWalk::Event> OutlineWalk::contact(std::size_t side, std::uint32_t from, std::uint32_t to) const {
+  const Contender& wave = contenders_[to];
+  if (!wave.has_cone || ladder_.failed()) return std::nullopt;
+  const std::size_t begins = wave.enters_over(side) ? 0 : 1;  // the ray where, going along the side, its cone begins
+  return Event{from, to, wave.cone_site[begins], static_cast<std::uint8_t>(begins), true, true, std::nullopt};
+}
+
+/// Two waves that tie at an end of the side, by identity or by algebra of the strips: whether the place where `to` overtakes `from` is that end.
 bool OutlineWalk::tie_is_at_corner(std::size_t side, const Event& event) {
   const std::size_t start = side, end = (side + 1) % 3;
-  const Contender &from = contenders_[event.from], &to = contenders_[event.to];
-  if (from.ties_at_corner(to, start)) {
+  if (contenders_.tie_at_corner(ladder_, event.from, event.to, start)) {
     if (corners_.nearer_beside(start, CornerOrder::Direction::outgoing, event.from, event.to) != Sign::positive) return true;
   }
-  if (from.ties_at_corner(to, end)) {
+  if (contenders_.tie_at_corner(ladder_, event.from, event.to, end)) {
     if (corners_.nearer_beside(end, CornerOrder::Direction::incoming, event.from, event.to) != Sign::negative) return true;
   }
   return ladder_.failed();
@@ -351,28 +365,11 @@ bool OutlineWalk::ties_at_corners(const Event& event) const {
   return false;
 }
 
-/// Whether a relay starts on a boundary ray of its parent that runs along the side, before the side or where it begins: then they tie all along it.
-bool OutlineWalk::tie_on_ray_along(std::size_t side, std::uint32_t parent, std::uint32_t relay) {
-  const int ray = contenders_.tangent_end(parent, relay);
-  if (ray == Contenders::kNotTangent || !contenders_.runs_along(ladder_, parent, static_cast<std::size_t>(ray), side)) return false;
-  const auto test = [&](const auto& numbers, robust::Stage) -> std::optional<bool> {
-    const auto &from = numbers.sites[contenders_[parent].site]->image, &on = numbers.sites[contenders_[relay].site]->image;
-    bool open = false;
-    for (const std::size_t c : {side, (side + 1) % 3}) {
-      const MaybeSign beyond = maybe_sign(dot(numbers.side[c].origin - on, on - from));
-      if (beyond == Sign::negative) return false;
-      open = open || !beyond;
-    }
-    return open ? std::nullopt : std::optional(true);
-  };
-  if (const auto known = test(ladder_.filter(), robust::Stage::filter)) return *known;
-  return ladder_.for_each_stage(test).value_or(false);
-}
-
 /// Whether the two are at one point by identity: waves that tie all along a side stand for one another there.
 bool OutlineWalk::at_one_point(std::size_t side, const Event& a, const Event& b) {
   const auto alike = [&](std::uint32_t i, std::uint32_t j) {
-    return i == j || contenders_.mirrored(i, j, side) != Sign::zero || tie_on_ray_along(side, i, j) || tie_on_ray_along(side, j, i);
+    return i == j || contenders_.mirrored(i, j, side) != Sign::zero || contenders_.tie_on_ray_along(ladder_, i, j, side) ||
+           contenders_.tie_on_ray_along(ladder_, j, i, side);
   };
   const bool on_rays = a.ray != FacetTessellation::kNoSite && b.ray != FacetTessellation::kNoSite;
   if (on_rays && contenders_.are_one_ray(a.ray, a.ray_end, b.ray, b.ray_end)) return true;

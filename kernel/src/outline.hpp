@@ -62,10 +62,10 @@ class OutlineWalk {
     std::optional<Event> event{};
   };
   MirroredTouch mirrored_touch(std::size_t side, std::uint32_t from, std::uint32_t to) const;
-  std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to);
+  std::optional<bool> do_touch(std::size_t side, std::uint32_t from, std::uint32_t to);
+  std::optional<Event> contact(std::size_t side, std::uint32_t from, std::uint32_t to) const;
   bool tie_is_at_corner(std::size_t side, const Event& event);
   bool ties_at_corners(const Event& event) const;
-  bool tie_on_ray_along(std::size_t side, std::uint32_t parent, std::uint32_t relay);
   bool at_one_point(std::size_t side, const Event& a, const Event& b);
   std::optional<bool> happens(std::size_t side, Event& event, const std::optional<Event>& previous);
   /// `along`: which boundary rays of `to` are known to run along the side.

@@ -139,7 +139,8 @@ bool Ring::is_on_side_line(const Direction& d) {
       const auto& line = numbers.side[node_->where];
       return maybe_sign(cross(line.direction, numbers.sites[contenders_[tied_[d.a].contender].site]->image - line.origin));
     };
-    known = !off(ladder_.filter(), robust::Stage::filter) && ladder_.for_each_stage(off) == Sign::zero;
+    const MaybeSign filtered = off(ladder_.filter(), robust::Stage::filter);
+    known = (filtered ? filtered : ladder_.for_each_stage(off)) == Sign::zero;
   }
   return *known;
 }
@@ -190,11 +191,12 @@ bool Ring::is_on_node_ray(const Node& node, std::uint32_t wave, std::size_t end)
   return node.ray != FacetTessellation::kNoSite && contenders_[wave].has_cone && contenders_.is_on_ray(wave, end, node.ray, node.ray_end);
 }
 
-/// A wave ties with a relay of its own on their common ray and nowhere else: whether one that starts on this ray is known to tie too.
+/// A wave ties with a relay of its own on their common ray and nowhere else (but with its other half, beyond the ray, everywhere): whether one that starts on
+/// this ray is known to tie too.
 template <class Known>
 bool Ring::relay_on_ray(std::uint32_t wave, std::size_t end, const Known& is_known) const {
   for (std::uint32_t relay = 0; relay < contenders_.size(); ++relay)
-    if (contenders_.tangent_end(wave, relay) == static_cast<int>(end) && is_known(relay)) return true;
+    if (contenders_.tangent_end(wave, relay) == static_cast<int>(end) && !contenders_.eclipses(relay, wave) && is_known(relay)) return true;
   return false;
 }
 
@@ -214,13 +216,17 @@ MaybeSign Ring::at_ray(std::uint32_t contender, std::size_t end) {
       [&](const auto& numbers) { return maybe_sign(cone_side(numbers, wave, end, node_point(waves_, numbers, *node_))); });
 }
 
-/// Whether two waves have one distance at the node by identity: mirror images in its side, or a relay and its parent on their common ray.
+/// Whether two waves have one distance at the node by identity: halves of one wave, mirror images in its side, or a relay and its parent on their common ray, which goes
+/// through the node or runs along its side.
 bool Ring::tie_by_identity(const Node& node, std::uint32_t i, std::uint32_t j) const {
   const auto on_common_ray = [&](std::uint32_t parent, std::uint32_t relay) {
     const int end = contenders_.tangent_end(parent, relay);
-    return end != Contenders::kNotTangent && is_on_node_ray(node, parent, static_cast<std::size_t>(end));
+    if (end == Contenders::kNotTangent) return false;
+    return is_on_node_ray(node, parent, static_cast<std::size_t>(end)) ||
+           (node.kind == Node::Kind::side && contenders_.tie_on_ray_along(ladder_, parent, relay, node.where));
   };
-  return on_common_ray(i, j) || on_common_ray(j, i) ||
+  const bool one_wave = contenders_.eclipses(i, j) && contenders_.eclipses(j, i);
+  return one_wave || on_common_ray(i, j) || on_common_ray(j, i) ||
          (node.kind == Node::Kind::side && contenders_.mirrored(i, j, node.where) != Sign::zero);
 }
 
@@ -232,7 +238,8 @@ std::optional<bool> Ring::ties(const Node& node, std::span<const std::uint32_t> 
   const bool as_far = is_known(other);
   std::array<bool, 2> on_ray{};
   for (std::size_t end = 0; b.has_cone && end < 2; ++end)
-    on_ray[end] = is_on_node_ray(node, other, end) || (as_far && relay_on_ray(other, end, is_known));
+    on_ray[end] = is_on_node_ray(node, other, end) || (as_far && relay_on_ray(other, end, is_known)) ||
+                  (node.kind == Node::Kind::side && contenders_.runs_along(ladder_, other, end, node.where));
   const auto test = [&](const auto& numbers) -> std::optional<bool> {
     const auto p = node_point(waves_, numbers, node);
     const MaybeSign farther =
@@ -358,7 +365,8 @@ bool Ring::are_mirrored(std::uint32_t i, std::uint32_t j, const Direction& d) {
   const auto heavier = [&](const auto& numbers, robust::Stage) {
     return maybe_sign(numbers.sites[a.site]->weight - numbers.sites[b.site]->weight);
   };
-  if (gap(ladder_.filter(), robust::Stage::filter) || ladder_.for_each_stage(gap) != Sign::zero) return false;
+  const MaybeSign filtered = gap(ladder_.filter(), robust::Stage::filter);
+  if ((filtered ? filtered : ladder_.for_each_stage(gap)) != Sign::zero) return false;
   return same_weight || ladder_.for_each_stage(heavier) == Sign::zero;
 }
 

@@ -14,10 +14,16 @@ using predicates::operator-;
 using robust::MaybeSign;
 using robust::Sign;
 using robust::Stage;
+using Node = FacetTessellation::Node;
 
 void BisectorVertices::set_rivals(std::span<const std::uint32_t> rivals) {
   rivals_.assign(rivals.begin(), rivals.end());
   remembered_.clear();
+}
+
+void BisectorVertices::set_outline(const FacetTessellation& walked) {
+  walked_ = &walked;
+  nodes_of_walk_ = walked.nodes.size();
 }
 
 void BisectorVertices::forget() {
@@ -138,17 +144,33 @@ BisectorVertices::Verdict BisectorVertices::conflict(const FacetNumbers<NT>& num
   return nearer == Sign::positive ? Verdict::reject : Verdict::tie;
 }
 
+/// On a side, the walk has seen whatever changes along it. Where a region only touches the side nothing does: if two of them do so in one point, because a
+/// boundary ray ends there, it is a vertex like those inside.
+template <class NT>
+BisectorVertices::Verdict BisectorVertices::against_side(const FacetNumbers<NT>& numbers, std::uint8_t side, const PlanePoint<NT>& p) const {
+  const auto& line = numbers.side[side];
+  const MaybeSign inside = maybe_sign(cross(line.direction, p - line.origin));
+  if (!inside) return Verdict::open;
+  if (*inside != Sign::zero) return *inside == Sign::positive ? Verdict::pass : Verdict::reject;
+  if (walked_ == nullptr) return Verdict::reject;
+  const NT t = dot(p - line.origin, line.direction) / line.square;
+  for (const MaybeSign& within : {maybe_sign(t), maybe_sign(NT(1.0) - t)})
+    if (within != Sign::positive) return within ? Verdict::reject : Verdict::open;
+  for (std::size_t n = 0; n < nodes_of_walk_; ++n) {
+    const Node& node = walked_->nodes[n];
+    if (node.kind != Node::Kind::side || node.where != side) continue;
+    const MaybeSign apart = maybe_sign(node_parameter(waves_, numbers, node) - t);
+    if (!apart || *apart == Sign::zero) return apart ? Verdict::reject : Verdict::open;
+  }
+  return Verdict::pass;
+}
+
 template <class NT>
 BisectorVertices::Verdict BisectorVertices::test(const FacetNumbers<NT>& numbers, const Triple& t, const BisectorVertex<NT>& vertex,
                                                  const PlanePoint<NT>& p, std::uint32_t what) const {
   if (what == kExistence) return Verdict::pass;
   if (what >= kRivals) return conflict(numbers, t, vertex, p, what - kRivals);
-  if (what < kCones) {
-    const auto& side = numbers.side[what - kSides];
-    const MaybeSign inside = maybe_sign(cross(side.direction, p - side.origin));
-    if (!inside) return Verdict::open;
-    return *inside == Sign::positive ? Verdict::pass : Verdict::reject;  // on the outline: the walk has seen it
-  }
+  if (what < kCones) return against_side(numbers, static_cast<std::uint8_t>(what - kSides), p);
   const std::uint32_t wave = t.waves[(what - kCones) / 2], end = (what - kCones) % 2;
   if (!contenders_[wave].has_cone) return Verdict::pass;
   if (t.on_ray && wave == t.parent && end == t.ray_end) return Verdict::pass;  // on the ray by identity

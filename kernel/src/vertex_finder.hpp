@@ -34,6 +34,8 @@ class BisectorVertices {
 
   /// Only these contenders can conflict: the others own no area of the facet. To be called first.
   void set_rivals(std::span<const std::uint32_t> rivals);
+  /// The nodes that `walked` has by now are all that the walk round the facet has found: only where it has none may a vertex lie on a side.
+  void set_outline(const FacetTessellation& walked);
 
   /// The vertex with the regions of i, j, k counter-clockwise round it, perhaps with others in between. Remembered, and one for all triples that
   /// meet in one point. Null on failure. Pre: i, j, k are different rivals.
@@ -58,7 +60,7 @@ class BisectorVertices {
     std::uint8_t ray_end = 0;
   };
   enum class Verdict { pass, reject, open, tie, on_ray };
-  /// What has to hold: existence, then inside the three sides, in the cones of the three (two rays each), then not in conflict with a rival.
+  /// What has to hold: existence, then within the three sides, in the cones of the three (two rays each), then not in conflict with a rival.
   static constexpr std::uint32_t kExistence = 0, kSides = 1, kCones = 4, kRivals = 10;
 
   std::optional<Triple> triple(std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
@@ -74,6 +76,8 @@ class BisectorVertices {
   template <class NT>
   Verdict conflict(const FacetNumbers<NT>& numbers, const Triple& triple, const predicates::BisectorVertex<NT>& vertex,
                    const predicates::PlanePoint<NT>& p, std::uint32_t rival) const;
+  template <class NT>
+  Verdict against_side(const FacetNumbers<NT>& numbers, std::uint8_t side, const predicates::PlanePoint<NT>& p) const;
   bool settle_where_they_part(const Triple& triple);
   bool add_eclipsed_ties(const Triple& triple, const FacetTessellation::Node& node);
   FacetTessellation::Node node_of(const Triple& triple) const;
@@ -87,6 +91,8 @@ class BisectorVertices {
   VertexFilter filter_;
   FacetLadder& ladder_;
   std::pmr::vector<std::uint32_t> rivals_;
+  const FacetTessellation* walked_ = nullptr;
+  std::size_t nodes_of_walk_ = 0;
   std::vector<std::uint32_t> rank_;       ///< of a contender among the rivals
   std::vector<std::int32_t> remembered_;  ///< per ordered triple of rivals: 0 unknown, else 1 + index in found_
   std::vector<std::unique_ptr<Found>> found_;  ///< pointers to them are handed out

@@ -193,6 +193,37 @@ bool FieldWaves::is_mirrored_at_cone_vertex(std::size_t parent, std::size_t end,
   return a.side == side ? show_mirror_images(side, *since, own) : show_mirror_images(side, own, *since);
 }
 
+bool FieldWaves::is_mirrored_on_strip(std::size_t parent, std::size_t other, std::uint8_t side) {
+  const FacetSite &a = sites[parent], &b = sites[other];
+  const bool at_corner = b.window == kNone, entering = a.window != kNone && a.side == side;
+  if (a.window == kNone || (at_corner ? !entering || b.corner != (side + 2) % 3 : entering == (b.side == side))) return false;
+  const Mesh& mesh = resolution_.frames().mesh();
+  std::vector<VertexId> seen;
+  for (WindowId w = a.window; w != kNone; w = field_.windows[w].parent) {
+    const HalfedgeId h = field_.windows[w].halfedge();
+    for (const VertexId v : {mesh.origin(h), mesh.target(h)}) {
+      if (std::find(seen.begin(), seen.end(), v) != seen.end()) continue;
+      seen.push_back(v);
+      if (!resolution_.have_equal_distances(v, b.root) || !comes_nearest_to(a.window, v)) continue;
+      const auto since = sides_since(a.window, v);
+      if (!since || since->empty()) continue;
+      const Sides own = at_corner ? Sides() : sides_of(strip(other));
+      if (entering ? show_mirror_images(side, *since, own) : show_mirror_images(side, own, *since)) return true;
+    }
+  }
+  return false;
+}
+
+bool FieldWaves::are_as_far_from_corner(std::size_t a, std::size_t b, std::uint8_t k) {
+  if (sites[a].window == kNone || sites[b].window == kNone || !resolution_.have_equal_distances(sites[a].root, sites[b].root)) return false;
+  const auto squared = [&](std::size_t i) {
+    const std::uint8_t side = sites[i].side;
+    const bool at_target = k == (side + 1) % 3, at_apex = k == (side + 2) % 3;
+    return way_program(resolution_.frames(), sides_of(strip(i))).squared_distance(*resolution_.frames().for_program(face), side, at_target ? 1 : 0, at_apex ? 1 : 0);
+  };
+  return are_proved_equal(squared(a), squared(b));
+}
+
 /// Of two ways, of which the first comes over a side and the other does not, or is none: the corner opposite. The mirror image of z is conj(1 - z) as seen
 /// from behind the side.
 bool FieldWaves::show_mirror_images(std::uint8_t side, std::span<const HalfedgeId> entering, std::span<const HalfedgeId> other) const {
@@ -228,9 +259,14 @@ bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) {
   const WindowId turn = last_turn(sites[parent].window, v);
   if (turn == kNone) return false;
   if (!goes_on_as(sites[parent].window, turn, sites[relay].window) && !is_image_of_root(*sides_since(sites[parent].window, v), relay)) return false;
-  const WindowId w = arrival(sites[parent].window, v);
-  if (w == sites[parent].window) return false;  // it comes to the vertex once more, as a corner of this facet
-  if (w == kNone) return resolution_.attains_along_edge(sites[parent].root, v);
+  return comes_nearest_to(sites[parent].window, v);
+}
+
+/// Whether a strip shows a vertex, about which it turned, as far as that is.
+bool FieldWaves::comes_nearest_to(WindowId strip, VertexId v) const {
+  const WindowId w = arrival(strip, v);
+  if (w == strip) return false;  // it comes to the vertex once more, as a corner of the facet
+  if (w == kNone) return resolution_.attains_along_edge(field_.windows[strip].root, v);
   return resolution_.attains(w, v) || resolution_.is_as_far(w, v);
 }
 
@@ -339,7 +375,7 @@ bool FieldWaves::step_back(std::vector<WindowId>& windows) const {
   return true;
 }
 
-/// Goes back to the last side, before those where they are, that the strips of all cross, if every strip sees its root from there where the first one's way
+/// Goes back to the last side, before those where they are (sides of one face), that the strips of all cross, if every strip sees its root from there where the first one's way
 /// would show it. False if there is no such side.
 bool FieldWaves::step_over_detours(std::vector<WindowId>& windows) {
   const Mesh& mesh = resolution_.frames().mesh();
@@ -371,8 +407,9 @@ bool FieldWaves::step_over_detours(std::vector<WindowId>& windows) {
 std::vector<predicates::Site<Exact>> FieldWaves::where_they_part(std::span<const std::uint32_t> which) {
   std::vector<WindowId> at, back;  // kNone: a corner
   for (const std::uint32_t i : which) back.push_back(sites[i].window);
-  HalfedgeId base = kNone;
-  for (HalfedgeId h = common_side(which, back); h != kNone;) {
+  HalfedgeId base = kNone, h = common_side(which, back);
+  if (h == kNone && step_over_detours(back)) h = common_side(which, back);
+  while (h != kNone) {
     base = h;
     at = back;
     h = step_back(back) ? common_side(which, back) : kNone;

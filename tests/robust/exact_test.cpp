@@ -3,6 +3,8 @@
 #include <CGAL/CORE_Expr.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cmath>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -270,6 +272,28 @@ TEST(Exact, DeferredNumbersAreMadeOnceAndOnlyIfNeeded) {
   const Exact nothing = Exact::deferred([] { return Exact::undefined(); });
   EXPECT_FALSE(nothing.is_defined());
   EXPECT_EQ(maybe_sign(nothing + x), std::nullopt);
+}
+
+/// Copies in several threads, of one that is made of another, and still made once; all that asks for a number sees what was made.
+TEST(Exact, DeferredNumbersAreMadeOnceByManyThreads) {
+  for (int round = 0; round < 50; ++round) {
+    std::atomic<int> made = 0;
+    const Exact inner = Exact::deferred([&made] {
+      ++made;
+      return root(3);
+    });
+    const Exact outer = Exact::deferred([inner] { return inner; });
+    std::atomic<int> right = 0;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+      threads.emplace_back([&, copy = outer] {
+        const bool zero = maybe_sign(copy * copy - 3) == Sign::zero && maybe_sign(copy - inner) == Sign::zero;
+        right += zero && rounded(copy) == std::sqrt(3.0) && maybe_sign(-copy) == Sign::negative && !copy.rational() && copy.bounds(8)->first < 2 ? 1 : 0;
+      });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(right, 4);
+    EXPECT_EQ(made, 1);
+  }
 }
 
 }  // namespace gvd::robust::test

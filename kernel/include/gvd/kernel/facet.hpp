@@ -101,6 +101,20 @@ class FacetWaves {
     return false;
   }
 
+  /// Whether another wave, mirrored in a side, would be that of a relay on the way of window `parent`: the parent's strip turns about a vertex, comes to it by a
+  /// nearest path, and shows it in the mirror image of the other wave's image, and its root is as far as that vertex. Then along that side the other wave is
+  /// nowhere nearer than the parent, cones aside. True is a proof, false says nothing.
+  virtual bool is_mirrored_on_strip(std::size_t parent, std::size_t other, std::uint8_t side) {
+    static_cast<void>(parent), static_cast<void>(other), static_cast<void>(side);
+    return false;
+  }
+
+  /// Whether two windows are as far from corner k, cones aside, by algebra of the strips. True is a proof, false says nothing.
+  virtual bool are_as_far_from_corner(std::size_t a, std::size_t b, std::uint8_t k) {
+    static_cast<void>(a), static_cast<void>(b), static_cast<void>(k);
+    return false;
+  }
+
   /// Whether two rays bound cones of windows in one and the same unfolded vertex, by identity: from that vertex on the strips cross the same sides.
   virtual bool share_cone_vertex(std::size_t a, std::size_t end_a, std::size_t b, std::size_t end_b) {
     static_cast<void>(a), static_cast<void>(end_a), static_cast<void>(b), static_cast<void>(end_b);

@@ -17,7 +17,7 @@ struct FacetTessellation {
 
   struct Node {
     enum class Kind : std::uint8_t { corner, side, inside };
-    Kind kind = Kind::inside;
+    Kind kind = Kind::inside;         ///< also of a vertex on a side that its regions only touch: nothing changes along the side there
     std::uint8_t where = 0;           ///< corner k or side k
     /// The sites whose regions meet here, counter-clockwise; at a corner or on a side from the direction in which the outline goes on to
     /// the one it came from. At least two; all regions that have this point as a corner.
