@@ -59,7 +59,7 @@ void add_mesh(CLI::App& app, Options& options) {
 void add_solving(CLI::App& app, Options& options) {
   app.add_option("--sources", options.sources, kSourcesHelp)->required()->type_name("FILE|random:N|vertices:N");
   app.add_option("--seed", options.seed, "Seed of random:N and vertices:N; the same on every machine")->capture_default_str();
-  app.add_option("--threads", options.threads, "Threads for tessellation, extraction and rounding; results do not depend on it (default: all cores)")
+  app.add_option("--threads", options.threads, "Threads for all phases but the propagation; results do not depend on it (default: all cores)")
       ->check(CLI::Range(1u, 1024u))
       ->type_name("N");
   add_parsed(app, "--max-memory", options.max_memory_bytes, parse_bytes, "Stop with exit code 4 above this size of the process, as 512M or 4G", "SIZE");

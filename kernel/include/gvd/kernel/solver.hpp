@@ -23,7 +23,7 @@ struct Progress {
 };
 
 struct SolveOptions {
-  /// Facet tessellation, extraction and rounding run in parallel, on no more threads than the machine runs at once; results do not depend on it.
+  /// Frames, facet tessellation, extraction and rounding run in parallel, on no more threads than the machine runs at once; results do not depend on it.
   unsigned threads = 1;
   std::uint64_t max_memory_bytes = 0;   ///< limit on the resident memory of the process; 0: none
   double time_limit_seconds = 0;        ///< limit on the wall time of `solve`; 0: none
