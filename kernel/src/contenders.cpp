@@ -392,14 +392,18 @@ bool Contenders::mirrored_on_way(std::size_t i, std::size_t j, std::size_t side)
   return proved(i, j) || proved(j, i);
 }
 
-bool Contenders::tie_at_corner(const FacetLadder& ladder, std::size_t i, std::size_t j, std::size_t k) const {
+bool Contenders::tie_at_corner(FacetLadder& ladder, std::size_t i, std::size_t j, std::size_t k) const {
   if (list_[i].ties_at_corner(list_[j], k)) return true;
-  const auto& numbers = ladder.filter();
-  const auto distance = [&](std::size_t wave) { return predicates::distance(*numbers.sites[list_[wave].site], numbers.side[k].origin); };
-  if (const robust::MaybeSign known = maybe_sign(distance(i) - distance(j))) return *known == Sign::zero;
+  const auto compare = [&](const auto& numbers) {
+    const auto distance = [&](std::size_t wave) { return predicates::distance(*numbers.sites[list_[wave].site], numbers.side[k].origin); };
+    return maybe_sign(distance(i) - distance(j));
+  };
+  if (const robust::MaybeSign known = compare(ladder.filter())) return *known == Sign::zero;
   const auto [known, added] = at_corner_.try_emplace({std::min(i, j), std::max(i, j), k}, false);
-  if (added)
-    known->second = any_windows(i, j, [&](std::size_t a, std::size_t b) { return waves_.are_as_far_from_corner(a, b, static_cast<std::uint8_t>(k)); });
+  if (!added) return known->second;
+  const auto differ = [&](const auto& numbers) { return compare(numbers).value_or(Sign::zero) != Sign::zero; };
+  if (differ(ladder.in_double_double()) || differ(ladder.in_mpfr(kBitsBeforeAlgebra))) return false;
+  known->second = any_windows(i, j, [&](std::size_t a, std::size_t b) { return waves_.are_as_far_from_corner(a, b, static_cast<std::uint8_t>(k)); });
   return known->second;
 }
 

@@ -73,7 +73,7 @@ class Contenders {
   /// its image is that of a relay on the other one's way.
   bool mirrored_on_way(std::size_t i, std::size_t j, std::size_t side) const;
   /// Whether the two are as far from corner k, by name or by algebra of the strips.
-  bool tie_at_corner(const FacetLadder& ladder, std::size_t i, std::size_t j, std::size_t k) const;
+  bool tie_at_corner(FacetLadder& ladder, std::size_t i, std::size_t j, std::size_t k) const;
   /// As tangent_end, for the mirror image of the relay in a side: which may be no contender.
   int mirrored_tangent_end(std::size_t parent, std::size_t relay, std::size_t side) const;
   /// Whether boundary ray `end` of i is, by identity, on one line with ray `site_end` of a site: it is that ray, or both go through one relay, or
