@@ -48,6 +48,8 @@ struct ExactCorner {
   mpq_class dot;           ///< d.e
   mpq_class cross_square;  ///< |d x e|^2 > 0
 };
+/// The corner between d and e. Pre: they are not parallel. A common factor of all spokes of a fan changes no angle: with one that makes them whole,
+/// no sum or product has to be reduced.
 ExactCorner exact_corner(const std::array<mpq_class, 3>& d, const std::array<mpq_class, 3>& e);
 
 robust::MaybeSign double_double_compare_angle_sum(std::span<const ExactCorner> fan, int quarter_turns);
