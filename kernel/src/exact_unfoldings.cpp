@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "gvd/robust/proof_limit.hpp"
+
 namespace gvd::kernel {
 
 using predicates::RootUnfolding;
@@ -36,6 +38,7 @@ ExactUnfoldings::Pointer ExactUnfoldings::step(WindowId window, const RootUnfold
 }
 
 ExactUnfoldings::Pointer ExactUnfoldings::operator()(WindowId window) const {
+  if (!robust::ProofLimit::allows_one()) return nullptr;
   std::call_once(allocate_, [&] { slots_ = std::vector<Slot>(std::min<std::size_t>(kMostSlots, field_.windows.size())); });
   std::vector<WindowId> missing;
   Pointer at;

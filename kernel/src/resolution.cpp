@@ -28,8 +28,8 @@ using robust::Stage;
 
 namespace {
 
-/// Paths of more legs are not attempted exactly.
-constexpr std::size_t kMostLegs = 24;
+/// Paths of more legs are not attempted exactly: each leg of one is compared with each of the other.
+constexpr std::size_t kMostLegs = 64;
 constexpr std::array<int, 4> kMpfrBits = {128, 256, 512, 1024};
 
 template <class T>
@@ -296,11 +296,12 @@ HalfedgeId Resolution::edge_between(VertexId a, VertexId b) const {
   const auto beside = [&](HalfedgeId h, VertexId v) { return mesh.target(h) == v ? h : mesh.origin(Mesh::prev(h)) == v ? Mesh::prev(h) : kNone; };
   HalfedgeId of_a = mesh.outgoing(a), of_b = mesh.outgoing(b);
   for (;;) {
-    if (of_a == kNone && of_b == kNone) throw InternalError("no edge joins vertices " + std::to_string(a) + " and " + std::to_string(b));
     for (const auto& [h, v] : {std::pair(of_a, b), std::pair(of_b, a)})
-      if (const HalfedgeId found = h == kNone ? kNone : beside(h, v); found != kNone) return found;
-    for (auto& [h, v] : {std::tie(of_a, a), std::tie(of_b, b)})
-      if (h != kNone && (h = mesh.twin(Mesh::prev(h))) == mesh.outgoing(v)) h = kNone;
+      if (const HalfedgeId found = beside(h, v); found != kNone) return found;
+    of_a = mesh.twin(Mesh::prev(of_a));
+    of_b = mesh.twin(Mesh::prev(of_b));
+    if (of_a == kNone || of_b == kNone || of_a == mesh.outgoing(a) || of_b == mesh.outgoing(b))
+      throw InternalError("no edge joins vertices " + std::to_string(a) + " and " + std::to_string(b));
   }
 }
 

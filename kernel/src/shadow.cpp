@@ -74,12 +74,15 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
     ccw_face = k;  // k == n: along the last edge of a boundary fan
     cw_steps_from = k;
   }
+  const auto require_less_than_all = [&](std::size_t steps) {  // a relay: there is more than half a turn on either side
+    if (steps > n) throw InternalError("half a turn about vertex " + std::to_string(v) + " goes all the way round it");
+  };
   // Counter-clockwise: the first face in which half a turn may be full.
   HalfTurn ccw(ccw_start, start_error), cw(cw_start, start_error);
   std::optional<std::size_t> first, last;
-  for (std::size_t step = 0; step < n; ++step) {
+  for (std::size_t step = 0; closed || ccw_face + step < n; ++step) {
+    require_less_than_all(step + 1);
     const std::size_t i = ccw_face + step;
-    if (!closed && i >= n) break;
     const Frame& f = frames[fan[i % n]];
     const HalfTurn before = ccw;
     if (ccw.reached_by(f.u, f.y)) {
@@ -88,8 +91,8 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
       break;
     }
   }
-  for (std::size_t step = 1; step <= n; ++step) {
-    if (!closed && cw_steps_from < step) break;
+  for (std::size_t step = 1; closed || step <= cw_steps_from; ++step) {
+    require_less_than_all(step);
     const std::size_t i = (cw_steps_from + n - step) % n;
     const Frame& f = frames[fan[i]];
     const Image p = cw.at();
@@ -100,8 +103,7 @@ void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, H
       break;
     }
   }
-  if (closed) {  // a relay: there is more than half a turn on either side
-    if (!first || !last) throw InternalError("half a turn about vertex " + std::to_string(v) + " goes all the way round it");
+  if (closed) {
     for (std::size_t i = *first % n;; i = (i + 1) % n) {
       faces.push_back(fan[i]);
       if (i == *last) break;

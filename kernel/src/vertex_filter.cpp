@@ -166,7 +166,7 @@ VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& wav
   const DoublePoint step{(fk * ji.y - fi * jk.y) / det, (fi * jk.x - fk * ji.x) / det};
   const double moved = std::sqrt(dot(step, step));
   const double eta = 1.25 * (moved + inverse * error), h = inverse * curvature * eta;
-  if (!(h < 0.25 && 8 * eta < least_reach && inverse < 0x1p40)) return {};
+  if (!(h < 0.25 && 8 * eta < least_reach)) return {};
   const double sign = start->sign[0] * start->sign[1] * start->sign[2];
   if (!(-det * sign > 0)) return {};
   Found found;

@@ -43,7 +43,8 @@ bool FieldWaves::enclose_only_flat(std::span<const HalfedgeId> a, std::span<cons
       chain = beside(of_a, false);
       if (chain != beside(of_b, true)) return false;
     }
-    if (chain.empty() || !std::all_of(chain.begin(), chain.end(), is_flat)) return false;
+    // It is not empty: one of the two goes over another side here, and its chain is that of the other one.
+    if (!std::all_of(chain.begin(), chain.end(), is_flat)) return false;
     a = a.subspan(a_end), b = b.subspan(b_end);
   }
   return true;
@@ -119,15 +120,20 @@ Disc<T> FieldWaves::image_of(std::span<const HalfedgeId> sides, const FrameOf& f
 /// Whether numbers of type T tell the images apart. As in `show_one_image`.
 template <class T, class FrameOf>
 bool FieldWaves::have_images_apart(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b, const FrameOf& frame_of, double unit) const {
-  const auto certainly_differ = [](const auto& x, const auto& y) { return maybe_sign(x - y).value_or(robust::Sign::zero) != robust::Sign::zero; };
+  const auto may_vanish = [](const Ball<T>& x) { return maybe_sign(x).value_or(robust::Sign::zero) == robust::Sign::zero; };
   const Disc<T> of_a = image_of<T>(a, frame_of, unit);
   Disc<T> of_b = image_of<T>(b, frame_of, unit);
-  if (a.back() == b.back()) return certainly_differ(ball_x(of_a), ball_x(of_b)) || certainly_differ(ball_y(of_a), ball_y(of_b));
-  const std::uint8_t side = side_entered(a);
-  const bool left = side == (side_entered(b) + 2) % 3;
-  of_b = predicates::cross(of_b, frame_of(3 * face + side), left, unit);
-  const Ball<T> one(1.0);
-  return certainly_differ(one - ball_x(of_a), ball_x(of_b)) || certainly_differ(-ball_y(of_a), ball_y(of_b));
+  Ball<T> x = ball_x(of_a), y = ball_y(of_a);
+  if (a.back() != b.back()) {
+    const std::uint8_t side = side_entered(a);
+    const bool left = side == (side_entered(b) + 2) % 3;
+    of_b = predicates::cross(of_b, frame_of(3 * face + side), left, unit);
+    x = Ball<T>(1.0) - x;
+    y = -y;
+  }
+  x = x - ball_x(of_b);
+  y = y - ball_y(of_b);
+  return !may_vanish(x) || !may_vanish(y);
 }
 
 /// By numbers, of which these many bits cost far less than algebra.
@@ -264,6 +270,7 @@ bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) {
 
 /// Whether a strip shows a vertex, about which it turned, as far as that is.
 bool FieldWaves::comes_nearest_to(WindowId strip, VertexId v) const {
+  if (v == field_.windows[strip].root) return false;  // where it began
   const WindowId w = arrival(strip, v);
   if (w == strip) return false;  // it comes to the vertex once more, as a corner of the facet
   if (w == kNone) return resolution_.attains_along_edge(field_.windows[strip].root, v);

@@ -9,6 +9,7 @@
 #include "gvd/robust/ball.hpp"
 #include "gvd/robust/double_double.hpp"
 #include "gvd/robust/mpfr_float.hpp"
+#include "gvd/robust/proof_limit.hpp"
 #include "gvd/robust/rational.hpp"
 
 namespace gvd::predicates {
@@ -77,7 +78,7 @@ class TurnedProduct {
     x_ = std::move(product_x);
     // |arg| < pi now, and one of -1, 0, 1 quarter turns brings it below pi/2; half a turn would leave it open which way round.
     const int quarters = turn_certainly(x_, y_);
-    if (quarters == 2) certain_ = false;
+    certain_ &= quarters != 2;
     quarters_ += quarters == 3 ? -1 : quarters;
     // Corners are about 1 in size (product_of), but there may be thousands.
     const int exponent = std::ilogb(rough(x_.mid()));
@@ -86,17 +87,20 @@ class TurnedProduct {
   }
 
   MaybeSign compare(int quarter_turns) const {
-    if (!certain_) return std::nullopt;
-    return compare_turns(quarters_, quarter_turns, [&] { return maybe_sign(y_); });
+    return compare(quarter_turns, [&] { return maybe_sign(y_); });
   }
-
-  std::optional<int> quarters() const { return certain_ ? std::optional(quarters_) : std::nullopt; }
+  /// With the sign of the imaginary part from elsewhere.
+  template <class SignOfImaginaryPart>
+  MaybeSign compare(int quarter_turns, const SignOfImaginaryPart& sign) const {
+    if (!certain_) return std::nullopt;
+    return compare_turns(quarters_, quarter_turns, sign);
+  }
 
  private:
   int turn_certainly(NT& x, NT& y) {
     const int quarters = quarter_of(x, y);
     turn_back(x, y, quarters);
-    if (maybe_sign(x) != Sign::positive) certain_ = false;
+    certain_ &= maybe_sign(x) == Sign::positive;
     return quarters;
   }
 
@@ -127,12 +131,11 @@ constexpr int kBits[] = {128, 256, 512, 1024, 4096, 16384};
 using InDoubleDouble = TurnedProduct<Ball<robust::DoubleDouble>>;
 
 MaybeSign exact_comparison(std::span<const ExactCorner> fan, int quarter_turns, const InDoubleDouble& product) {
+  if (!robust::ProofLimit::allows_one()) return std::nullopt;
   const auto formal = FormalAngleProduct::of(fan, kMostAngleRoots);
   if (!formal) return std::nullopt;
-  // The whole number of quarter turns that is certainly less than one off: a double-double loses some 2^-98 a corner, so it always tells.
-  const auto quarters = product.quarters();
-  if (!quarters) return std::nullopt;
-  return compare_turns(*quarters, quarter_turns, [&] { return formal->imaginary_sign(quarter_turns); });
+  // Its whole number of quarter turns is certainly less than one off: a double-double loses some 2^-98 a corner.
+  return product.compare(quarter_turns, [&] { return formal->imaginary_sign(quarter_turns); });
 }
 
 }  // namespace

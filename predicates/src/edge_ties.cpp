@@ -121,8 +121,9 @@ class EdgeComparison {
       result.kind = Kind::points;
       return result;
     }
+    // Not zero: both images are on one side of the line, so it touches no branch of their hyperbola, and a tie at its origin would be one of those found.
     const MaybeSign at_start = maybe_sign(distance(b_, line_.origin) - distance(a_, line_.origin));
-    if (!at_start || *at_start == Sign::zero) return std::nullopt;
+    if (!at_start) return std::nullopt;
     result.a_is_nearer = *at_start == Sign::positive;
     return result;
   }

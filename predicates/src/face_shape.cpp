@@ -37,8 +37,8 @@ void FaceShape::prepare() {
   exponent_ = std::ilogb(largest);
   const auto side = sides<double>(53);
   double_ = face_frames(side[0], side[1], side[2]);
-  in_range_ = std::all_of(double_.begin(), double_.end(),
-                          [](const auto& frame) { return frame.length > kLeastSide && frame.length < kMostSide; });
+  static_assert(kMostSide * kMostSide > 3 * 2 * 2);  // no difference of two coordinates exceeds 2
+  in_range_ = std::all_of(double_.begin(), double_.end(), [](const auto& frame) { return frame.length > kLeastSide; });
   // An apex certainly above its side makes an area; the rest is for rationals.
   const bool has_height = in_range_ && double_[0].y > 0x1p-40 * rough_size(Complex<double>{double_[0].u, double_[0].y});
   if (!has_height && sgn(exact().radicand) == 0) throw std::invalid_argument("the corners of a face are in line");
@@ -56,21 +56,21 @@ std::array<Vector<mpq_class>, 3> FaceShape::exact_sides() const {
 template <class T>
 std::array<Vector<T>, 3> FaceShape::sides(int bits) const {
   std::array<Vector<T>, 3> side;
-  if (apex_ || std::is_same_v<T, Mpfr>) {
-    const auto exact = exact_sides();
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < 3; ++i) side[k][i] = robust::from<robust::Ball<T>>(exact[k][i], bits).mid();
-    return side;
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const DoubleDouble d = robust::two_sum(corners_[(k + 1) % 3][i], -corners_[k][i]);
-      if constexpr (std::is_same_v<T, double>)
-        side[k][i] = std::ldexp(d.hi, -exponent_);
-      else if constexpr (std::is_same_v<T, DoubleDouble>)
-        side[k][i] = {std::ldexp(d.hi, -exponent_), std::ldexp(d.lo, -exponent_)};
+  if constexpr (!std::is_same_v<T, Mpfr>) {
+    for (std::size_t k = 0; k < 3 && !apex_; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const DoubleDouble d = robust::two_sum(corners_[(k + 1) % 3][i], -corners_[k][i]);
+        if constexpr (std::is_same_v<T, double>)
+          side[k][i] = std::ldexp(d.hi, -exponent_);
+        else
+          side[k][i] = {std::ldexp(d.hi, -exponent_), std::ldexp(d.lo, -exponent_)};
+      }
     }
+    if (!apex_) return side;
   }
+  const auto exact = exact_sides();
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) side[k][i] = robust::from<robust::Ball<T>>(exact[k][i], bits).mid();
   return side;
 }
 

@@ -5,6 +5,7 @@
 
 #include "face_shape.hpp"
 #include "gvd/predicates/strip_numbers.hpp"
+#include "gvd/robust/proof_limit.hpp"
 
 /// The points of a FaceStrip in any number type, in the frame of the entry edge of its last face (of the first side of its only face).
 namespace gvd::predicates {
@@ -105,7 +106,7 @@ template <class Visit>
 auto with_roots(const StripAccess& at, const Visit& visit) {
   RootNumbers numbers([&](std::uint32_t h) -> const EdgeFrame<robust::RootSum>& { return at.face(h / 3).in_roots()[h % 3]; });
   std::optional result(visit(numbers));
-  if (!numbers.is_known()) result.reset();
+  if (!numbers.is_known() || !robust::ProofLimit::allows_one()) result.reset();
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "correct_rounding.hpp"
+#include "gvd/robust/proof_limit.hpp"
 #include "gvd/robust/rational.hpp"
 #include "root_sum_interval.hpp"
 #include "root_tower.hpp"
@@ -198,6 +199,7 @@ Exact::Node::Node(Expression e) : what_(std::move(e)) {}
 MaybeSign Exact::Node::sign() const {
   signed char known = sign_.load(std::memory_order_relaxed);
   if (known == kUnknown) {
+    if (!ProofLimit::allows_one()) return std::nullopt;
     const MaybeSign decided = decide_sign();
     known = decided ? static_cast<signed char>(*decided) : kOutOfReach;
     sign_.store(known, std::memory_order_relaxed);

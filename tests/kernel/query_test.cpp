@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -254,6 +255,25 @@ TEST(Query, SaysWhatCannotBeReached) {
   SurfacePoint outside = in_face(0, 1, 1, 1);
   outside.bary[0] = -1;
   EXPECT_THROW(solution.query(outside), InputError);
+}
+
+// A point a hair beside the ray that bounds what a window sees past a corner: the path bends there, or it does not, and double-doubles cannot tell.
+TEST(Path, BesideABoundaryRay) {
+  const Mesh mesh({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}},
+                   {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {3, 4, 7}, {3, 7, 6}}});
+  constexpr VertexId kCorner = 4;
+  const Solution solution = test::solve_field(mesh, {test::vertex_source(mesh, 6)});
+  for (const int bits : {10, 60, 150, 300}) {
+    for (const int side : {1, -1}) {
+      const mpq_class off = side * robust::power_of_two(-bits);
+      const SurfacePoint at = point_in_face(mesh, 3, {mpq_class(1, 4) - off, mpq_class(1, 4) + off, mpq_class(1, 2)});
+      const PointAnswer answer = solution.path(at);
+      EXPECT_FALSE(answer.undecided);
+      const bool bends = std::any_of(answer.path.begin(), answer.path.end(), [&](const PathPoint& p) { return p.vertex == kCorner; });
+      EXPECT_EQ(bends, side > 0) << bits;
+      EXPECT_NEAR(answer.distance, 1.25 * std::sqrt(2.0), 0.01);
+    }
+  }
 }
 
 }  // namespace

@@ -125,8 +125,8 @@ TEST(TiedInputs, MirroredTerrain) {
 TEST(TiedInputs, LongStraightLines) {
   // From one flat vertex to the next a path along edges has a leg each, far more than are compared exactly; a window has one that is as long.
   for (const int slope : {0, 1}) {
-    const Mesh mesh(test::grid(2, 60, [&](auto x, auto) { return slope * std::abs(x - 1.0); }));
-    for (const std::vector<VertexId>& at : {std::vector<VertexId>{0}, {1}, {0, 182}}) {
+    const Mesh mesh(test::grid(2, 100, [&](auto x, auto) { return slope * std::abs(x - 1.0); }));
+    for (const std::vector<VertexId>& at : {std::vector<VertexId>{0}, {1}, {0, 302}}) {
       std::vector<Source> sources;
       for (const VertexId v : at) sources.push_back(test::at_vertex(mesh, v));
       test::expect_truth(mesh, sources, [&](VertexId v, std::size_t s) {
@@ -206,6 +206,41 @@ TEST(TiedInputs, FlatLattice) {
       const auto ways = [&](double x) { return std::fmod(2 * x, 2 * step) == step ? 2u : 1u; };
       EXPECT_EQ(solution.nearest(v).size(), ways(mesh.point(v)[0]) * ways(mesh.point(v)[1]));
     }
+  }
+}
+
+/// A ring about a round hole, 2 k sides round, mirrored in the x-axis. Vertex i of the hole lies at i / k of half a turn, i + 2 k outside of it.
+MeshArrays ring(std::uint32_t k) {
+  MeshArrays mesh;
+  for (const double radius : {1.0, 2.0}) {
+    for (std::uint32_t i = 0; i < 2 * k; ++i) {
+      const double turn = M_PI * std::min(i, 2 * k - i) / k, y = i % k == 0 ? 0 : radius * std::sin(turn);
+      mesh.points.push_back({radius * std::cos(turn), i < k ? y : -y, 0});
+    }
+  }
+  for (std::uint32_t i = 0; i < 2 * k; ++i) {
+    const std::uint32_t j = (i + 1) % (2 * k), outer_i = i + 2 * k, outer_j = j + 2 * k;
+    if (i < k)
+      mesh.faces.insert(mesh.faces.end(), {{i, outer_i, outer_j}, {i, outer_j, j}});
+    else
+      mesh.faces.insert(mesh.faces.end(), {{i, outer_i, j}, {outer_i, outer_j, j}});
+  }
+  return mesh;
+}
+
+// Behind a round hole the two ways round it are as long: two thirds of the hole's upper half bend them, of which each leg has its image below. There is a
+// limit to the number of legs, and beyond it everything is known but whether the two are equal.
+TEST(TiedInputs, BothWaysRoundAHole) {
+  for (const std::uint32_t k : {20u, 60u, 150u}) {
+    SCOPED_TRACE(k);
+    const Mesh mesh(ring(k));
+    const auto solution = solve(mesh, {test::at_vertex(mesh, 3 * k)}, test::distances_only());
+    EXPECT_EQ(solution.status(), k < 100 ? Status::certified : Status::undecided);
+    double length = std::sqrt(3.0), side = 2 * std::sin(M_PI / (2 * k));
+    for (std::uint32_t i = 0; 3 * i < 2 * k; ++i) length += side;
+    EXPECT_NEAR(solution.distance(0), length, 2 * side);
+    for (VertexId v = 1; v < k; ++v) EXPECT_EQ(solution.distance(v), solution.distance(2 * k - v)) << v;
+    EXPECT_EQ(solution.nearest(0).size(), 1u);
   }
 }
 

@@ -175,4 +175,33 @@ TEST(BisectorPiece, AWaveBehindTheOtherHasNone) {
   EXPECT_FALSE(BisectorPiece::between(relay, parent, {0, 0}, {0.25, 0}, 0x1p-50));
 }
 
+// A short piece between waves far away. Each bound by itself: a little below it there is a piece, a little above it there is none.
+TEST(BisectorPiece, EachBoundCounts) {
+  struct Numbers {
+    double half_length = 0.125, radius = 0x1p-50, reach_left = 8, reach_right = 8, error_left = 0, error_right = 0;
+    bool has_piece() const {
+      const DoubleWave left{{-reach_left, 0}, 0, error_left}, right{{reach_right, 0}, reach_left - reach_right, error_right};
+      return BisectorPiece::between(left, right, {0, -half_length}, {0, half_length}, radius).has_value();
+    }
+  };
+  const auto expect_bound = [](double Numbers::*which, double most) {
+    Numbers numbers;
+    numbers.*which = most * (1 - 0x1p-10);
+    EXPECT_TRUE(numbers.has_piece()) << most;
+    numbers.*which = most * (1 + 0x1p-10);
+    EXPECT_FALSE(numbers.has_piece()) << most;
+  };
+  EXPECT_TRUE(Numbers().has_piece());
+  expect_bound(&Numbers::radius, 0.125 / 3);
+  expect_bound(&Numbers::error_left, 1);
+  expect_bound(&Numbers::error_right, 1);
+  for (double Numbers::*const reach : {&Numbers::reach_left, &Numbers::reach_right}) {
+    Numbers numbers;
+    numbers.*reach = 1.25 * 4 * 0.125 * (1 + 0x1p-10);
+    EXPECT_TRUE(numbers.has_piece());
+    numbers.*reach = 1.25 * 4 * 0.125 * (1 - 0x1p-10);
+    EXPECT_FALSE(numbers.has_piece());
+  }
+}
+
 }  // namespace

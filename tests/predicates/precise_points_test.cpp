@@ -198,5 +198,53 @@ TEST(PrecisePoints, AreCarriedToSpace) {
   }
 }
 
+/// Waves that tie at (0, 0), from images at that distance in the directions of the axes.
+PreciseWave wave_at(double x, double y, double value, double error = 0) {
+  const auto ball = [&](double at) { return Ball(DoubleDouble(at), error / 2); };
+  return {{ball(x), ball(y)}, Ball(value - std::hypot(x, y))};
+}
+bool is_known(const PrecisePoint& p) { return p.x.rad() < 1 && p.y.rad() < 1; }
+
+// The bounds hold within a quarter of the reach of each wave: where one of them is too near or known too badly, nothing is said.
+TEST(PrecisePoints, EachWaveMustBeFarOff) {
+  constexpr double kReach = 4, kLess = 1 - 0x1p-10, kMore = 1 + 0x1p-10;
+  for (std::size_t which = 0; which < 3; ++which) {
+    SCOPED_TRACE(which);
+    const auto near = [&](double reach, double error, double radius) {
+      std::array<PreciseWave, 3> waves{wave_at(-kReach, 0, 5), wave_at(0, kReach, 5), wave_at(kReach, 0, 5)};
+      const double size = which == 1 ? 0 : which == 0 ? -reach : reach;
+      waves[which] = wave_at(size, which == 1 ? reach : 0, 5, error);
+      return is_known(vertex_near(waves[0], waves[1], waves[2], {{0, 0}, radius}));
+    };
+    EXPECT_TRUE(near(4 * 0x1p-10 * kMore, 0, 0x1p-10));
+    EXPECT_FALSE(near(4 * 0x1p-10 * kLess, 0, 0x1p-10));
+    EXPECT_TRUE(near(0x1p-10, 0x1p-12 * kLess, 0x1p-40));
+    EXPECT_FALSE(near(0x1p-10, 0x1p-12 * kMore, 0x1p-40));
+  }
+  // On a ray: the relay, the other wave, and how well the direction of the ray is known.
+  const auto on_ray = [](double relay, double other, double parent_error, double relay_error, double radius) {
+    const PreciseWave parent = wave_at(-2 - relay, 0, 5, parent_error);
+    return is_known(ray_vertex_near(parent, wave_at(-relay, 0, 5, relay_error), wave_at(other, 0, 5), {{0, 0}, radius}));
+  };
+  EXPECT_TRUE(on_ray(kReach, kReach, 0, 0, 0x1p-10));
+  EXPECT_TRUE(on_ray(4 * 0x1p-10 * kMore, kReach, 0, 0, 0x1p-10));
+  EXPECT_FALSE(on_ray(4 * 0x1p-10 * kLess, kReach, 0, 0, 0x1p-10));
+  EXPECT_TRUE(on_ray(kReach, 4 * 0x1p-10 * kMore, 0, 0, 0x1p-10));
+  EXPECT_FALSE(on_ray(kReach, 4 * 0x1p-10 * kLess, 0, 0, 0x1p-10));
+  EXPECT_TRUE(on_ray(0x1p-10, kReach, 0, 0x1p-12 * kLess, 0x1p-40));
+  EXPECT_FALSE(on_ray(0x1p-10, kReach, 0, 0x1p-12 * kMore, 0x1p-40));
+  EXPECT_TRUE(on_ray(kReach, kReach, 0.5 * kLess, 0, 0x1p-40));
+  EXPECT_FALSE(on_ray(kReach, kReach, 0.5 * kMore, 0, 0x1p-40));
+  // On a side, from (-1, 0) to (1, 0): radius and start are parameters of it.
+  const SideLine<Ball> side{{Ball(-1.0), Ball(0.0)}, {Ball(2.0), Ball(0.0)}, Ball(2.0)};
+  const auto on_side = [&](double from, double to, double radius) {
+    return side_tie_near(side, wave_at(-from, 0, 5), wave_at(to, 0, 5), 0.5, radius).rad() < 1;
+  };
+  EXPECT_TRUE(on_side(8 * 0x1p-10 * kMore, kReach, 0x1p-10));
+  EXPECT_FALSE(on_side(8 * 0x1p-10 * kLess, kReach, 0x1p-10));
+  EXPECT_TRUE(on_side(kReach, 8 * 0x1p-10 * kMore, 0x1p-10));
+  EXPECT_FALSE(on_side(kReach, 8 * 0x1p-10 * kLess, 0x1p-10));
+}
+
 }  // namespace
 }  // namespace gvd::predicates

@@ -140,5 +140,34 @@ TEST(Length, EnclosesAndRoundsTheTruth) {
   EXPECT_EQ(midpoint.stage, Stage::algebra);
 }
 
+// A face too thin for doubles in either path: numbers of any length tell all the same.
+TEST(CompareLengths, AFaceOutOfRangeInEitherPath) {
+  const double thin = 0x1p-300;
+  const Leg plain(FaceStrip({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, FacePoint::corner(0)), FacePoint::corner(1));
+  const Leg sliver(FaceStrip({{{0, 0, 0}, {1, 0, 0}, {1, thin, 0}}}, FacePoint::corner(0)), FacePoint::corner(2));  // longer by 2^-601
+  const Path one{0, {plain}}, other{0, {sliver}};
+  EXPECT_EQ(compare_lengths_at({Stage::filter}, {1, {plain}}, {0, {sliver}}), std::nullopt);
+  EXPECT_EQ(compare_lengths_at({Stage::double_double}, {0, {sliver}}, {1, {plain}}), std::nullopt);
+  EXPECT_EQ(compare_lengths(one, other).sign, Sign::negative);
+  EXPECT_EQ(compare_lengths(other, one).sign, Sign::positive);
+  EXPECT_EQ(compare_lengths({1, {plain}}, other).sign, Sign::positive);
+  EXPECT_EQ(compare_lengths({1, {plain}}, other).stage, Stage::mpfr);
+}
+
+TEST(Length, BeyondTheGreatestDouble) {
+  const Enclosure e = length({robust::power_of_two(1100), {}});
+  EXPECT_LE(e.lower, std::numeric_limits<double>::max());
+  EXPECT_EQ(e.upper, HUGE_VAL);
+}
+
+TEST(CompareLengths, WithoutLegsOnOneSide) {
+  const Leg five(FaceStrip({{{0, 0, 0}, {3, 4, 0}, {0, 4, 0}}}, FacePoint::corner(0)), FacePoint::corner(1));
+  EXPECT_EQ(compare_lengths({5, {}}, {0, {five}}).sign, Sign::zero);
+  EXPECT_EQ(compare_lengths({0, {five}}, {5, {}}).sign, Sign::zero);
+  EXPECT_EQ(compare_lengths({6, {}}, {0, {five}}).sign, Sign::positive);
+  EXPECT_EQ(compare_lengths({0, {five}}, {6, {}}).sign, Sign::negative);
+  EXPECT_EQ(compare_lengths({6, {}}, {5, {}}).stage, Stage::identity);
+}
+
 }  // namespace
 }  // namespace gvd::predicates

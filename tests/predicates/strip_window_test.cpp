@@ -335,5 +335,56 @@ TEST(WindowConflict, WhatIsNotSeenDoesNotCount) {
   EXPECT_THROW(conflict({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {&right, &top, &left}, below), std::invalid_argument);
 }
 
+TEST(Window, IsTheSameByStripWeightAndCone) {
+  FaceStrip strip({{{-6, -6, 0}, {0, -12, 0}, {6, -6, 0}}}, {{1, 4, 1}}), other({{{-6, -6, 0}, {0, -12, 0}, {6, -6, 0}}}, {{1, 4, 2}});
+  for (FaceStrip* s : {&strip, &other}) s->cross({{{-6, -6, 0}, {6, -6, 0}, {0, 6, 0}}});
+  const Window window{strip, {1, {}}, {{0, 2}}};
+  EXPECT_TRUE((window == Window{strip, {1, {}}, {{0, 2}}}));
+  EXPECT_FALSE((window == Window{other, {1, {}}, {{0, 2}}}));
+  EXPECT_FALSE((window == Window{strip, {2, {}}, {{0, 2}}}));
+  EXPECT_FALSE((window == Window{strip, {1, {}}, {{3, 2}}}));
+  EXPECT_FALSE((window == Window{strip, {1, {}}, std::nullopt}));
+}
+
+// A weight through a face too thin for doubles: they are not asked, and long numbers find the ties.
+TEST(TiesOnEdge, AWeightOutOfRange) {
+  const std::array<SpacePoint, 2> edge{{{0, 0, 0}, {8, 0, 0}}};
+  const FaceCorners facet{{{0, 0, 0}, {8, 0, 0}, {4, 8, 0}}};
+  const Leg sliver(FaceStrip({{{0, 0, 0}, {1, 0, 0}, {1, 0x1p-300, 0}}}, FacePoint::corner(0)), FacePoint::corner(2));
+  const Window a{FaceStrip(facet, FacePoint::corner(0)), {0, {sliver}}, std::nullopt}, b{FaceStrip(facet, FacePoint::corner(1)), {1, {}}, std::nullopt};
+  EXPECT_FALSE(ties_on_edge_at({Stage::filter}, a, b, edge));
+  EXPECT_FALSE(ties_on_edge_at({Stage::double_double}, b, a, edge));
+  const EdgeTies ties = ties_on_edge(a, b, edge);
+  ASSERT_EQ(ties.kind, EdgeTies::Kind::points);
+  EXPECT_EQ(ties.stage, Stage::mpfr);
+  EXPECT_LE(ties.ties[0].t.lower, 0.5);
+  EXPECT_GE(ties.ties[0].t.upper, 0.5);
+}
+
+// Seen from behind, the facet and the order of the waves are the other way round, and nothing else changes.
+TEST(WindowConflict, AFacetSeenFromBehind) {
+  const FaceCorners facet{{{-6, -6, 0}, {6, -6, 0}, {0, 6, 0}}};
+  const Window right{FaceStrip(facet, FacePoint::corner(1)), {}, std::nullopt}, top{FaceStrip(facet, FacePoint::corner(2)), {}, std::nullopt},
+      left{FaceStrip(facet, FacePoint::corner(0)), {}, std::nullopt};
+  FaceStrip strip({{{-6, -6, 0}, {0, -12, 0}, {6, -6, 0}}}, {{1, 4, 1}});
+  strip.cross(facet);
+  std::array<std::size_t, 3> corner{0, 1, 2};
+  do {
+    const FaceCorners named{facet[corner[0]], facet[corner[1]], facet[corner[2]]};
+    const bool behind = (corner[0] + 1) % 3 != corner[1];
+    const auto verdict = [&](const Window& a, const Window& b, const Window& c, const Window& rival) {
+      return conflict(named, behind ? std::array{&c, &b, &a} : std::array{&a, &b, &c}, rival).verdict;
+    };
+    for (const int weight : {0, -3}) {
+      for (const auto& cone : {std::array<std::size_t, 2>{0, 2}, {3, 2}, {0, 3}}) {
+        const Window below{strip, {weight, {}}, cone};
+        EXPECT_EQ(verdict(right, top, left, below), weight < 0 ? Conflict::nearer : Conflict::farther);
+        // The vertex of the lower three lies on the ray through the top corner, too: each half sees it.
+        EXPECT_EQ(verdict(below, right, left, Window{FaceStrip(facet, FacePoint::corner(2)), {30, {}}, std::nullopt}), Conflict::farther);
+      }
+    }
+  } while (std::next_permutation(corner.begin(), corner.end()));
+}
+
 }  // namespace
 }  // namespace gvd::predicates

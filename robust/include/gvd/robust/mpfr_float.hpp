@@ -30,7 +30,7 @@ class Mpfr {
   /// Exactly. Pre: finite.
   mpq_class to_mpq() const;
   /// -1, 0 or 1; 0 for not-a-number (ask is_finite).
-  int sign() const noexcept { return mpfr_nan_p(value_) ? 0 : mpfr_sgn(value_); }
+  int sign() const noexcept { return mpfr_nan_p(value_) ? 0 : (mpfr_sgn)(value_); }
   bool is_finite() const noexcept { return mpfr_number_p(value_) != 0; }
   bool is_zero() const noexcept { return mpfr_zero_p(value_) != 0; }
   /// |this| > bound; false if either is not a number.
