@@ -5,7 +5,6 @@
 #include <queue>
 
 #include "gvd/kernel/distance_field.hpp"
-#include "gvd/kernel/large_array.hpp"
 #include "gvd/robust/double_pair.hpp"
 #include "exact_unfoldings.hpp"
 #include "shadow.hpp"
@@ -105,17 +104,17 @@ class Propagation {
 
   const Mesh& mesh_;
   const Frames& all_frames_;
-  const std::span<const Frame> frames_;
+  const std::vector<Frame>& frames_;
   const std::vector<VertexKind>& kinds_;
   DistanceField& field_;
   ExactUnfoldings exact_;
   predicates::Decisions& decisions_;
   const bool by_avx_;
 
-  LargeArray<Wave> waves_;
+  std::vector<Wave> waves_;
   std::uint32_t free_wave_ = kNone;
   std::size_t free_waves_ = 0;
-  LargeArray<Side> sides_;
+  std::vector<Side> sides_;
   std::vector<HalfedgeId> fifo_;
   std::size_t fifo_head_ = 0;
   std::uint32_t ahead_ = kNone;               // a wave of the list that is crossed next, fetched

@@ -43,7 +43,7 @@ class HalfTurn {
 
 }  // namespace
 
-void shadow_of(const Mesh& mesh, std::span<const Frame> frames, VertexId v, HalfedgeId over, const Candidate& arrival,
+void shadow_of(const Mesh& mesh, const std::vector<Frame>& frames, VertexId v, HalfedgeId over, const Candidate& arrival,
                Shadow& shadow) {
   std::vector<HalfedgeId>& faces = shadow.faces;
   faces.clear();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "gvd/kernel/distance_field.hpp"
@@ -24,7 +23,7 @@ struct Shadow {
 /// The shadow of an arrival at v: all that is not certainly within half a turn of it on either side. `over`: the half-edge of the arrival's window,
 /// kNone if it came along the edge from arrival.via. Too much is safe: what a relay sends outside the shadow is a path, only not the shortest.
 /// Error: docs/error-bounds.md#shadow.
-void shadow_of(const Mesh& mesh, std::span<const predicates::EdgeFrame<double>> frames, VertexId v, HalfedgeId over,
+void shadow_of(const Mesh& mesh, const std::vector<predicates::EdgeFrame<double>>& frames, VertexId v, HalfedgeId over,
                const Candidate& arrival, Shadow& shadow);
 
 }  // namespace gvd::kernel

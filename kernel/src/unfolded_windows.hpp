@@ -5,7 +5,6 @@
 
 #include "gvd/kernel/distance_field.hpp"
 #include "gvd/kernel/frames.hpp"
-#include "gvd/kernel/large_array.hpp"
 #include "gvd/predicates/strip.hpp"
 
 namespace gvd::kernel {
@@ -40,8 +39,8 @@ class UnfoldedWindows {
  private:
   static Entry make(const Frames& frames, const DistanceField& field, WindowId window, const Entry* parent);
 
-  LargeArray<std::uint32_t> entry_of_;  ///< per window
-  LargeArray<Entry> entries_;
+  std::vector<std::uint32_t> entry_of_;  ///< per window
+  std::vector<Entry> entries_;
 };
 
 }  // namespace gvd::kernel

@@ -4,7 +4,6 @@
 
 #include "gvd/kernel/distance_field.hpp"
 #include "gvd/kernel/frames.hpp"
-#include "gvd/kernel/large_array.hpp"
 #include "gvd/predicates/strip.hpp"
 
 namespace gvd::kernel {
@@ -29,8 +28,8 @@ class WindowImages {
 
   const Frames& frames_;
   const DistanceField& field_;
-  LargeArray<std::uint32_t> slot_;  // per window: where in images_, or kNone, or kWanted for a while
-  LargeArray<Image> images_;
+  std::vector<std::uint32_t> slot_;  // per window: where in images_, or kNone, or kWanted for a while
+  std::vector<Image> images_;
   std::vector<WindowId> path_;
 };
 

@@ -36,12 +36,12 @@ std::vector<std::uint64_t> bits_of(const std::vector<double>& numbers) {
   for (const double x : numbers) bits.push_back(std::bit_cast<std::uint64_t>(x));
   return bits;
 }
-std::vector<std::uint64_t> bits_of(const kernel::LargeArray<WindowRecord>& windows) {
+std::vector<std::uint64_t> bits_of(const std::vector<WindowRecord>& windows) {
   std::vector<std::uint64_t> bits;
   for (const WindowRecord& w : windows) bits.insert(bits.end(), {w.parent, w.packed, w.root, w.next});
   return bits;
 }
-std::vector<std::uint64_t> bits_of(const kernel::LargeArray<Candidate>& candidates) {
+std::vector<std::uint64_t> bits_of(const std::vector<Candidate>& candidates) {
   std::vector<std::uint64_t> bits;
   for (const Candidate& c : candidates) {
     bits.insert(bits.end(), {c.window, c.via, c.next});

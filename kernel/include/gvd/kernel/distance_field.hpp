@@ -6,7 +6,6 @@
 
 #include "gvd/kernel/frames.hpp"
 #include "gvd/kernel/ids.hpp"
-#include "gvd/kernel/large_array.hpp"
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/kernel/vertex_kind.hpp"
 #include "gvd/predicates/frame.hpp"
@@ -48,9 +47,9 @@ struct DistanceField {
     return windows[window].dead();
   }
 
-  LargeArray<WindowRecord> windows;
+  std::vector<WindowRecord> windows;
   std::vector<WindowId> first_window;        ///< per half-edge: windows that come in over it
-  LargeArray<Candidate> candidates;
+  std::vector<Candidate> candidates;
   std::vector<std::uint32_t> first_candidate;  ///< per vertex
   std::vector<std::uint8_t> corner_sees_face;  ///< per half-edge: its origin starts waves (source or relay) that may enter its face
   std::vector<double> distance, error;        ///< per vertex: |distance - D| <= error; infinity if unreachable

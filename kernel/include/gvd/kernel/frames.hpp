@@ -4,10 +4,8 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <vector>
 
-#include "gvd/kernel/large_array.hpp"
 #include "gvd/kernel/mesh.hpp"
 #include "gvd/predicates/face_frames.hpp"
 #include "gvd/predicates/strip_program.hpp"
@@ -29,7 +27,7 @@ class Frames {
 
   int scale() const noexcept { return scale_; }
   /// Errors of all number types: docs/error-bounds.md#frames.
-  std::span<const predicates::EdgeFrame<double>> in_double() const noexcept { return double_; }
+  const std::vector<predicates::EdgeFrame<double>>& in_double() const noexcept { return double_; }
   const predicates::EdgeFrame<double>& operator()(HalfedgeId h) const noexcept { return double_[h]; }
   /// Cached: the reference stays.
   const predicates::EdgeFrame<robust::DoubleDouble>& in_double_double(HalfedgeId h) const {
@@ -61,13 +59,13 @@ class Frames {
   const Mesh& mesh_;
   int scale_ = 0;
   bool underflow_ = false;
-  LargeArray<predicates::EdgeFrame<double>> double_;
+  std::vector<predicates::EdgeFrame<double>> double_;
   struct alignas(64) CacheLine {
     predicates::EdgeFrame<robust::DoubleDouble> frame;
   };
   enum State : std::uint8_t { kEmpty, kBeingMade, kReady };
   void make_in_double_double(FaceId f) const;
-  mutable LargeArray<CacheLine> double_double_;
+  mutable std::vector<CacheLine> double_double_;
   mutable std::unique_ptr<std::atomic<std::uint8_t>[]> state_;        // per face
   mutable std::atomic<const std::atomic<std::uint8_t>*> states_{nullptr};  // the same, once they are there
   mutable std::once_flag allocate_;
