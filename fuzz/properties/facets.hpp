@@ -16,7 +16,8 @@ namespace gvd::fuzz {
 class Facets {
  public:
   explicit Facets(const Trial& t)
-      : refined_(refine(t.mesh(), t.sources(), where_)), frames_(refined_), kinds_(classify_vertices(refined_, decisions_)) {
+      : refined_(refine(t.mesh(), t.sources(), where_)), frames_(refined_), kinds_(kept_vertex_kinds(t.mesh()).of) {
+    kinds_.resize(refined_.vertex_count(), kernel::VertexKind::flat);
     std::map<kernel::VertexId, std::pair<double, std::vector<kernel::SourceId>>> least;
     for (kernel::SourceId s = 0; s < where_.vertex.size(); ++s) {
       const auto [it, fresh] = least.try_emplace(where_.vertex[s], where_.weight[s], std::vector<kernel::SourceId>{});

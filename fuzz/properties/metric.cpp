@@ -60,7 +60,7 @@ Outcome distance_is_short_along_edges(Trial& t) {
     }
     if (mesh.twin(h) < h) continue;  // seen from the other side
     const auto &far = da.value > db.value ? da : db, &near = da.value > db.value ? db : da;
-    if (certainly_exceeds(far.low, near.high, squared_distance(mesh.exact_point(a), mesh.exact_point(b))))
+    if (certainly_exceeds(far.low, near.high, mesh.point(a), mesh.point(b)))
       return violated(fmt::format("D({}) = {} and D({}) = {} differ by more than their edge", a, da.value, b, db.value));
   }
   return holds();

@@ -45,6 +45,17 @@ inline bool certainly_exceeds(double low_of_far, double high_of_near, const mpq_
   const mpq_class gap = robust::exact_rational(low_of_far) - robust::exact_rational(high_of_near);
   return sgn(gap) > 0 && gap * gap > squared_chord;
 }
+/// The same for the chord between two points of doubles. Rationals are asked only if doubles leave it open: the gap and each difference of
+/// coordinates are rounded once, so squares and sums are within 8 * 2^-53 where nothing underflows; both sides get 2^-45.
+inline bool certainly_exceeds(double low_of_far, double high_of_near, const kernel::Point& a, const kernel::Point& b) {
+  const double gap = low_of_far - high_of_near;
+  if (gap <= 0) return false;
+  double square = 0;
+  for (std::size_t k = 0; k < 3; ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
+  if (square > 0x1p-900 && gap * gap * (1 + 0x1p-45) < square * (1 - 0x1p-45)) return false;
+  const auto exact = [](const kernel::Point& p) { return kernel::ExactPoint{mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])}; };
+  return certainly_exceeds(low_of_far, high_of_near, squared_distance(exact(a), exact(b)));
+}
 
 inline Sources nearest(const kernel::Solution& solution, kernel::VertexId v) {
   const auto span = solution.nearest(v);

@@ -57,7 +57,8 @@ std::array<Point, 2> bounding_box(const Mesh& mesh) {
 }
 
 void count_kinds(const Mesh& mesh, predicates::Decisions& decisions, MeshFacts& facts) {
-  const std::vector<VertexKind> kinds = classify_vertices(mesh, decisions);
+  const auto& [kinds, found] = kept_vertex_kinds(mesh);
+  decisions.merge(found);
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.is_isolated(v)) {
       ++facts.isolated_vertices;

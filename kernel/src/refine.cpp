@@ -41,6 +41,7 @@ struct SplitFace {
 class MeshRefiner {
  public:
   MeshRefiner(const Mesh& given, std::size_t sources) : given_(given), mesh_(given) {
+    mesh_.kept_ = Mesh::nothing_kept();
     if (given.face_count() + 2 * sources > kMostFaces) {
       throw InputError(fmt::format("{} sources on a mesh of {} faces are too many", sources, given.face_count()));
     }

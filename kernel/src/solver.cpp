@@ -89,8 +89,10 @@ class Solver {
     s_.parts = FaceParts(s_.input, s_.refined);
     tbb::task_arena(threads_to_use()).execute([&] {
       // Vertices as in the input, whose corners have shorter numbers; what is inserted lies inside a face or an edge.
-      tbb::parallel_invoke([&] { s_.frames = std::make_unique<Frames>(s_.refined); }, [&] { s_.kinds = classify_vertices(s_.input, s_.decisions); });
+      tbb::parallel_invoke([&] { s_.frames = std::make_unique<Frames>(s_.refined); }, [&] { kept_vertex_kinds(s_.input); });
     });
+    s_.kinds = kept_vertex_kinds(s_.input).of;
+    s_.decisions.merge(kept_vertex_kinds(s_.input).decisions);
     s_.kinds.resize(s_.refined.vertex_count(), VertexKind::flat);
     s_.decisions.count(static_cast<std::size_t>(predicates::Predicate::saddle), robust::Stage::identity, s_.refined.vertex_count() - s_.input.vertex_count());
     if (s_.frames->has_underflow())

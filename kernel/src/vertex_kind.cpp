@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <mutex>
 
 #include "coplanar_fan.hpp"
 #include "gvd/predicates/angle_sum.hpp"
@@ -93,6 +94,18 @@ Decision decide(const Mesh& mesh, VertexId v) {
 }
 
 }  // namespace
+
+struct Mesh::Kept {
+  std::once_flag once;
+  VertexKinds kinds;
+};
+std::shared_ptr<Mesh::Kept> Mesh::nothing_kept() { return std::make_shared<Kept>(); }
+
+const VertexKinds& kept_vertex_kinds(const Mesh& mesh) {
+  VertexKinds& kinds = mesh.kept_->kinds;
+  std::call_once(mesh.kept_->once, [&] { kinds.of = classify_vertices(mesh, kinds.decisions); });
+  return kinds;
+}
 
 std::vector<VertexKind> classify_vertices(const Mesh& mesh, predicates::Decisions& decisions) {
   std::vector<VertexKind> kinds(mesh.vertex_count(), VertexKind::convex);

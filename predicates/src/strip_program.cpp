@@ -13,7 +13,7 @@ class WholeLayer {
  public:
   WholeLayer(const RationalMatrix& constant, const RationalMatrix& factor, const robust::RootSum& root) {
     const bool rational = root.terms().empty();
-    const mpq_class& coefficient = rational ? root.constant() : root.terms().front().coefficient;
+    const mpq_class coefficient = rational ? root.constant() : root.coefficient(root.terms().front());
     layer.radicand = rational ? mpz_class(1) : root.terms().front().radicand;
     mpz_class numerators = 0, denominators = 1;
     const auto note = [&](const mpq_class& q) {

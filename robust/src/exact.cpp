@@ -145,18 +145,19 @@ NodePtr make(Operation operation, NodePtr left, NodePtr right = nullptr) {
   return std::make_shared<const Exact::Node>(Expression{operation, std::move(left), std::move(right)});
 }
 
-// Larger products are left as expressions.
-constexpr std::size_t kMostProducts = 1024;
+// Larger products are left as expressions: those of coordinates over more than six classes (predicates::kMostTerms terms each, and a constant).
+constexpr std::size_t kMostProducts = 33 * 33;
 bool is_short_product(const RootSum& x, const RootSum& y) { return (x.terms().size() + 1) * (y.terms().size() + 1) <= kMostProducts; }
 
 // 1 / x, if x is a rational, a multiple of one root, or of a real quadratic field. Pre: x is not zero.
 std::optional<RootSum> inverse(const RootSum& x) {
   if (x.terms().size() > 1) return std::nullopt;
   if (x.terms().empty()) return RootSum(mpq_class(1 / x.constant()));
-  const auto& [coefficient, radicand, signature] = x.terms().front();
-  RootSum conjugate(x.constant());
+  const mpz_class& radicand = x.terms().front().radicand;
+  const mpq_class coefficient = x.coefficient(x.terms().front()), constant = x.constant();
+  RootSum conjugate(constant);
   conjugate.add(-coefficient, radicand);
-  return conjugate * mpq_class(1 / (x.constant() * x.constant() - coefficient * coefficient * radicand));
+  return conjugate * mpq_class(1 / (constant * constant - coefficient * coefficient * radicand));
 }
 
 // The non-negative root of a rational, or of an element of a real quadratic field that is a square there. Pre: x >= 0.
@@ -164,10 +165,11 @@ std::optional<RootSum> square_root(const RootSum& x) {
   if (x.terms().empty()) return RootSum(1, x.constant());
   if (x.terms().size() > 1) return std::nullopt;
   // (s + t sqrt d)^2 = a + b sqrt d has the norm n^2 = a^2 - b^2 d, so s^2 = (a +- n) / 2 and t = b / (2 s); s is not zero because b is not.
-  const auto& [b, d, signature] = x.terms().front();
-  const auto n = rational_square_root(x.constant() * x.constant() - b * b * d);
+  const mpz_class& d = x.terms().front().radicand;
+  const mpq_class b = x.coefficient(x.terms().front()), a = x.constant();
+  const auto n = rational_square_root(a * a - b * b * d);
   if (!n) return std::nullopt;
-  for (const mpq_class& s_squared : {mpq_class((x.constant() + *n) / 2), mpq_class((x.constant() - *n) / 2)}) {
+  for (const mpq_class& s_squared : {mpq_class((a + *n) / 2), mpq_class((a - *n) / 2)}) {
     const auto s = rational_square_root(s_squared);
     if (!s) continue;
     RootSum root(*s);

@@ -30,6 +30,11 @@ MpfrInterval::MpfrInterval(const mpq_class& q, int bits) : MpfrInterval(bits) {
   mpfr_set_q(high_.get(), q.get_mpq_t(), MPFR_RNDU);
 }
 
+MpfrInterval::MpfrInterval(const mpz_class& n, int bits) : MpfrInterval(bits) {
+  mpfr_set_z(low_.get(), n.get_mpz_t(), MPFR_RNDD);
+  mpfr_set_z(high_.get(), n.get_mpz_t(), MPFR_RNDU);
+}
+
 MpfrInterval operator-(const MpfrInterval& a) {
   MpfrInterval result(a.low_.bits());
   mpfr_neg(result.low_.get(), a.high_.get(), MPFR_RNDD);
@@ -53,6 +58,12 @@ MpfrInterval operator-(const MpfrInterval& a, const MpfrInterval& b) {
 
 MpfrInterval operator*(const MpfrInterval& a, const MpfrInterval& b) {
   MpfrInterval result(a.low_.bits());
+  if (const MaybeSign of_a = a.sign(), of_b = b.sign(); of_a && of_b) {
+    const bool positive_a = of_a == Sign::positive, positive_b = of_b == Sign::positive;
+    mpfr_mul(result.low_.get(), (positive_b ? a.low_ : a.high_).get(), (positive_a ? b.low_ : b.high_).get(), MPFR_RNDD);
+    mpfr_mul(result.high_.get(), (positive_b ? a.high_ : a.low_).get(), (positive_a ? b.high_ : b.low_).get(), MPFR_RNDU);
+    return result;
+  }
   extend(result.low_, result.high_, &mpfr_mul, a, b);
   return result;
 }
@@ -62,6 +73,12 @@ MpfrInterval operator/(const MpfrInterval& a, const MpfrInterval& b) {
   if (!(b.low_.sign() * b.high_.sign() > 0)) {  // may be zero
     mpfr_set_nan(result.low_.get());
     mpfr_set_nan(result.high_.get());
+    return result;
+  }
+  if (const MaybeSign of_a = a.sign()) {
+    const bool positive_a = of_a == Sign::positive, positive_b = b.low_.sign() > 0;
+    mpfr_div(result.low_.get(), (positive_b ? a.low_ : a.high_).get(), (positive_a ? b.high_ : b.low_).get(), MPFR_RNDD);
+    mpfr_div(result.high_.get(), (positive_b ? a.high_ : a.low_).get(), (positive_a ? b.low_ : b.high_).get(), MPFR_RNDU);
     return result;
   }
   extend(result.low_, result.high_, &mpfr_div, a, b);

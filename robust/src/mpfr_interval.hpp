@@ -12,6 +12,7 @@ class MpfrInterval {
  public:
   explicit MpfrInterval(int bits) : low_(0.0, bits), high_(0.0, bits) {}
   MpfrInterval(const mpq_class& q, int bits);
+  MpfrInterval(const mpz_class& n, int bits);
 
   const Mpfr& low() const noexcept { return low_; }
   const Mpfr& high() const noexcept { return high_; }

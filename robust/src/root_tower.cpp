@@ -175,17 +175,45 @@ TowerFraction RootTower::root(const TowerFraction& x) {
   return reduced(is_negative(root.numerator) == is_negative(root.denominator) ? root : negate(root));
 }
 
+/// The root as a multiple of those of these levels, if it is one.
+std::optional<TowerFraction> RootTower::root_by_classes(const RootSum::Term& term, std::uint64_t levels) const {
+  mpz_class product = 1;
+  for (std::size_t i = 0; i < classes_.size(); ++i)
+    if ((levels >> i & 1) != 0) product *= squares_[i].integer();
+  const mpz_class square = term.radicand * product;
+  if (!is_perfect_square(square)) return std::nullopt;
+  TowerFraction root{mpz_class(sqrt(square)), product};
+  for (std::size_t i = 0; i < classes_.size(); ++i)
+    if ((levels >> i & 1) != 0) root.numerator = TowerElement(static_cast<int>(i) + 1, TowerElement(), root.numerator);
+  return root;
+}
+
+/// Symbols tell at once whether the root of an integer is a new one, as long as there are only such, or of which it is a multiple; else it is looked for.
+TowerFraction RootTower::root_of(const RootSum::Term& term) {
+  std::uint64_t symbols = term.signature, levels = 0;
+  for (const SquareClass& c : classes_)
+    if (const std::uint64_t less = symbols ^ c.reduced; less < symbols) symbols = less, levels ^= c.levels;
+  if (symbols == 0)
+    if (const auto known = root_by_classes(term, levels)) return reduced(*known);
+  if (symbols == 0 || classes_.size() < squares_.size()) return root({term.radicand});
+  classes_.push_back({symbols, levels ^ std::uint64_t{1} << classes_.size()});
+  squares_.emplace_back(term.radicand);
+  return {TowerElement(static_cast<int>(squares_.size()), TowerElement(), mpz_class(1))};
+}
+
 TowerFraction RootTower::fraction(const RootSum& sum) {
-  TowerFraction result{sum.constant().get_num(), sum.constant().get_den()};
+  TowerFraction result{sum.whole_constant(), sum.denominator()};
   for (const auto& term : sum.terms()) {
-    const TowerFraction coefficient{term.coefficient.get_num(), term.coefficient.get_den()};
-    result = add(result, multiply(root({term.radicand}), coefficient));
+    if (is_exhausted()) return {};
+    auto known = known_roots_.find(term.radicand);
+    if (known == known_roots_.end()) known = known_roots_.emplace(term.radicand, root_of(term)).first;
+    result = add(result, multiply(known->second, {term.coefficient, sum.denominator()}));
   }
   return result;
 }
 
 MpfrInterval RootTower::enclosure(const TowerElement& x, const std::vector<MpfrInterval>& roots, int bits) const {
-  if (x.level() == 0) return {mpq_class(x.integer()), bits};
+  if (x.level() == 0) return {x.integer(), bits};
   return enclosure(x.a(), roots, bits) + enclosure(x.b(), roots, bits) * roots[static_cast<std::size_t>(x.level()) - 1];
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -69,12 +71,22 @@ class RootTower {
   bool extend(Place& place) const;
   ResidueField::Element image(const TowerElement& x, const Place& place) const;
   std::optional<TowerFraction> root_in_field(const TowerElement& x, int level);
+  TowerFraction root_of(const RootSum::Term& term);
+  std::optional<TowerFraction> root_by_classes(const RootSum::Term& term, std::uint64_t levels) const;
   TowerFraction reduced(TowerFraction x);
   const TowerElement& square_of(int level) const { return squares_[static_cast<std::size_t>(level) - 1]; }
   bool is_negative(const TowerElement& x) const;
   MpfrInterval enclosure(const TowerElement& x, const std::vector<MpfrInterval>& roots, int bits) const;
 
+  /// A whole square of the tower, by its symbols.
+  struct SquareClass {
+    std::uint64_t reduced;  ///< less those of the classes before, by elimination
+    std::uint64_t levels;   ///< of these and of itself, as bits
+  };
+
   std::vector<TowerElement> squares_;
+  std::vector<SquareClass> classes_;  ///< of the lowest levels, as long as they are roots of integers that were met in sums of roots
+  std::map<mpz_class, TowerFraction> known_roots_;
   std::vector<Place> places_;
   std::size_t primes_tried_ = 0;
   double work_ = 0;

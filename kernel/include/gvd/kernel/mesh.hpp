@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -84,6 +85,10 @@ class Mesh {
 
  private:
   friend class MeshRefiner;
+  friend const struct VertexKinds& kept_vertex_kinds(const Mesh& mesh);
+  /// What is found out about a mesh once, when it is first asked for; copies share it.
+  struct Kept;
+  static std::shared_ptr<Kept> nothing_kept();
   void build_twins();  // from corners_: also checks edges and links
 
   std::vector<Point> points_;
@@ -96,6 +101,7 @@ class Mesh {
   std::vector<ExactPoint> inserted_;  // of vertex input_vertex_count_ + i
   std::uint32_t vertex_count_ = 0;
   std::uint32_t input_vertex_count_ = 0;
+  std::shared_ptr<Kept> kept_ = nothing_kept();
 };
 
 /// Counts for `gvd info`.

@@ -18,4 +18,12 @@ enum class VertexKind : std::uint8_t { flat, relay, convex };
 /// two change nothing. Cost: a few nanoseconds a corner; exact arithmetic only for vertices that are flat or nearly so.
 std::vector<VertexKind> classify_vertices(const Mesh& mesh, predicates::Decisions& decisions);
 
+/// The kinds, and the decisions that it took to find them.
+struct VertexKinds {
+  std::vector<VertexKind> of;
+  predicates::Decisions decisions;
+};
+/// Those of the mesh, found by the first caller and kept with the mesh. May be called from several threads at once.
+const VertexKinds& kept_vertex_kinds(const Mesh& mesh);
+
 }  // namespace gvd::kernel
