@@ -411,9 +411,120 @@ bool FieldWaves::step_over_detours(std::vector<WindowId>& windows) {
   return false;
 }
 
+namespace {
+
+/// Strips as sequences of edges of the input: what inserted vertices split is one edge or one face again.
+class InputEdges {
+ public:
+  InputEdges(const Mesh& mesh, const DistanceField& field) : mesh_(mesh), field_(field) {}
+
+  HalfedgeId edge(WindowId w) const { return field_.windows[w].halfedge(); }
+  /// w, or the last window before it, that lies on an edge of the input; kNone if the strip crosses none.
+  WindowId crossing(WindowId w) const {
+    while (w != kNone && mesh_.is_artificial(edge(w))) w = field_.windows[w].parent;
+    return w;
+  }
+  WindowId before(WindowId w) const { return crossing(field_.windows[w].parent); }
+  /// Whether both are parts of one edge of the input, in the same direction.
+  bool are_one(HalfedgeId g, HalfedgeId h) const {
+    return g == h || (faces(g) == faces(h) && is_in_line(g, mesh_.origin(h)) && is_in_line(g, mesh_.target(h)));
+  }
+  bool is_in_line(HalfedgeId h, VertexId v) const {
+    const ExactPoint u = spoke(h, mesh_.target(h)), w = spoke(h, v);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (u[k] * w[(k + 1) % 3] != u[(k + 1) % 3] * w[k]) return false;
+    return true;
+  }
+  /// The place of v, which is in line with h: 0 at its origin, 1 at its target.
+  mpq_class place(HalfedgeId h, VertexId v) const {
+    const ExactPoint u = spoke(h, mesh_.target(h)), w = spoke(h, v);
+    return (u[0] * w[0] + u[1] * w[1] + u[2] * w[2]) / (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  }
+
+ private:
+  ExactPoint spoke(HalfedgeId h, VertexId v) const {
+    const ExactPoint from = mesh_.exact_point(mesh_.origin(h)), to = mesh_.exact_point(v);
+    return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+  }
+  std::array<FaceId, 2> faces(HalfedgeId h) const {
+    return {mesh_.input_face(Mesh::face(h)), mesh_.input_face(Mesh::face(mesh_.twin(h)))};
+  }
+
+  const Mesh& mesh_;
+  const DistanceField& field_;
+};
+
+/// Where strips were together: the half-edge that coordinates refer to, and of each wave its window there (kNone: it starts at a vertex in line with the
+/// half-edge) with the place of the window's own half-edge, or of the vertex, along the first.
+struct Parting {
+  struct Strip {
+    WindowId window;
+    mpq_class origin = 0, length = 1;
+  };
+  HalfedgeId base;
+  std::vector<Strip> strips;
+};
+
+/// Goes back over the faces of the input that all strips cross. A vertex of the facet that is in line with each of the edges is an end of it, or lies on
+/// it: a face has no other points in line with a side.
+std::optional<Parting> parting_in_input(const Mesh& mesh, const DistanceField& field, FaceId face, std::vector<WindowId> back, std::span<const VertexId> roots) {
+  const InputEdges edges(mesh, field);
+  const auto are_together = [&] {
+    HalfedgeId common = kNone;
+    for (std::size_t n = 0; n < back.size(); ++n) {
+      if (back[n] == kNone) continue;
+      if (common == kNone) common = edges.edge(back[n]);
+      if (!edges.are_one(common, edges.edge(back[n]))) return false;
+    }
+    for (std::size_t n = 0; common != kNone && n < back.size(); ++n)
+      if (back[n] == kNone && !edges.is_in_line(common, roots[n])) return false;
+    return common != kNone;
+  };
+  const auto go_back = [&](bool to_facet) {
+    for (WindowId& w : back)
+      if (w != kNone && (w = to_facet ? edges.crossing(w) : edges.before(w)) == kNone) return false;
+    return true;
+  };
+  std::vector<WindowId> at;
+  for (bool to_facet = true; go_back(to_facet) && are_together(); to_facet = false) at = back;
+  const auto first = std::find_if(at.begin(), at.end(), [](WindowId w) { return w != kNone; });
+  if (first == at.end() || mesh.input_face(Mesh::face(edges.edge(*first))) == mesh.input_face(face)) return std::nullopt;
+  Parting parting{edges.edge(*first), {}};
+  for (std::size_t n = 0; n < at.size(); ++n) {
+    if (at[n] == kNone) {
+      parting.strips.push_back({kNone, edges.place(parting.base, roots[n])});
+      continue;
+    }
+    const HalfedgeId h = edges.edge(at[n]);
+    const mpq_class origin = edges.place(parting.base, mesh.origin(h));
+    parting.strips.push_back({at[n], origin, edges.place(parting.base, mesh.target(h)) - origin});
+  }
+  return parting;
+}
+
+}  // namespace
+
 std::vector<predicates::Site<Exact>> FieldWaves::where_they_part(std::span<const std::uint32_t> which) {
+  const Mesh& mesh = resolution_.frames().mesh();
   std::vector<WindowId> at, back;  // kNone: a corner
-  for (const std::uint32_t i : which) back.push_back(sites[i].window);
+  std::vector<VertexId> roots;
+  for (const std::uint32_t i : which) back.push_back(sites[i].window), roots.push_back(sites[i].root);
+  const std::vector<WindowId> windows = back;
+  const auto in_frame = [&](const Parting& parting) -> std::vector<predicates::Site<Exact>> {
+    const Exact length = sqrt(Exact(resolution_.frames().exact(Mesh::face(parting.base))->squared[parting.base % 3]));
+    std::vector<predicates::Site<Exact>> result;
+    for (std::size_t n = 0; n < which.size(); ++n) {
+      const Parting::Strip& strip = parting.strips[n];
+      predicates::Site<Exact>& site = result.emplace_back();
+      site.weight = exact_weight(roots[n], length);
+      site.image = {Exact(strip.origin), Exact(0.0)};
+      if (strip.window == kNone) continue;
+      const auto unfolding = resolution_.exact_unfolding(strip.window);
+      if (!unfolding) return {};
+      site.image = {Exact(unfolding->image.x * strip.length + robust::RootSum(strip.origin)), Exact(unfolding->image.y * strip.length)};
+    }
+    return result;
+  };
   HalfedgeId base = kNone, h = common_side(which, back);
   if (h == kNone && step_over_detours(back)) h = common_side(which, back);
   while (h != kNone) {
@@ -422,21 +533,13 @@ std::vector<predicates::Site<Exact>> FieldWaves::where_they_part(std::span<const
     h = step_back(back) ? common_side(which, back) : kNone;
     if (h == kNone && step_over_detours(back = at)) h = common_side(which, back);
   }
-  if (base == kNone || Mesh::face(base) == face) return {};
-  const Frames& frames = resolution_.frames();
-  const Exact length = sqrt(Exact(frames.exact(Mesh::face(base))->squared[base % 3]));
-  std::vector<predicates::Site<Exact>> result;
-  for (std::size_t n = 0; n < which.size(); ++n) {
-    predicates::Site<Exact>& site = result.emplace_back();
-    const VertexId root = sites[which[n]].root;
-    site.weight = exact_weight(root, length);
-    site.image = {Exact(root == frames.mesh().target(base) ? 1.0 : 0.0), Exact(0.0)};
-    if (at[n] == kNone) continue;
-    const auto unfolding = resolution_.exact_unfolding(at[n]);
-    if (!unfolding) return {};
-    site.image = {Exact(unfolding->image.x), Exact(unfolding->image.y)};
+  if (base != kNone && Mesh::face(base) != face) {
+    Parting parting{base, {}};
+    for (std::size_t n = 0; n < at.size(); ++n) parting.strips.push_back({at[n], at[n] == kNone && roots[n] == mesh.target(base) ? 1 : 0});
+    if (auto result = in_frame(parting); !result.empty()) return result;
   }
-  return result;
+  const auto parting = parting_in_input(mesh, field_, face, windows, roots);
+  return parting ? in_frame(*parting) : std::vector<predicates::Site<Exact>>{};
 }
 
 }  // namespace gvd::kernel
