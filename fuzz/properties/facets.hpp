@@ -40,6 +40,8 @@ class Facets {
   std::unique_ptr<kernel::FieldWaves> waves(kernel::FaceId f) const {
     return std::make_unique<kernel::FieldWaves>(*resolution_, kinds_, f);
   }
+  const kernel::Resolution& resolution() const { return *resolution_; }
+  const std::vector<kernel::VertexKind>& kinds() const { return kinds_; }
 
  private:
   kernel::RefinedSources where_;

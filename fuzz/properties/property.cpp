@@ -8,7 +8,7 @@ std::span<const Property> properties() {
   static const std::vector<Property> all = [] {
     std::vector<Property> list;
     for (const auto& group :
-         {labelling_properties(), diagram_properties(), facet_properties(), stage_properties(), planar_properties(),
+         {labelling_properties(), diagram_properties(), facet_properties(), stage_properties(), identity_properties(), region_properties(), planar_properties(),
           metric_properties(), source_set_properties(), invariance_properties(), remeshing_properties(), enumeration_properties()})
       list.insert(list.end(), group.begin(), group.end());
     return list;

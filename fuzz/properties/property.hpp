@@ -49,6 +49,8 @@ std::span<const Property> planar_properties();
 std::span<const Property> diagram_properties();
 std::span<const Property> facet_properties();
 std::span<const Property> stage_properties();
+std::span<const Property> identity_properties();
+std::span<const Property> region_properties();
 std::span<const Property> enumeration_properties();
 
 }  // namespace gvd::fuzz

@@ -142,7 +142,7 @@ class FacetWaves {
 
   /// Whether the path to the root of `relay` goes through the strip of window `parent`, which turns about that root and then crosses the same
   /// faces as the strip of `relay`: then the relay's image lies on a ray of the parent and the weights differ by the distance of the images,
-  /// by identity. Asked only where doubles cannot exclude it; so the default is wrong only where a different strip of the same relay has an image
+  /// by identity. Asked only of different roots, and where doubles cannot exclude it; so the default is wrong only where a different strip of the same relay has an image
   /// closer than rounding errors.
   virtual bool is_own_relay(std::size_t parent, std::size_t relay) {
     static_cast<void>(parent);

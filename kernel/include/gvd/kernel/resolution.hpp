@@ -69,7 +69,7 @@ class Resolution {
   /// Whether the straight edge from `via` brings v its distance.
   bool attains_along_edge(VertexId via, VertexId v) const noexcept;
   /// Whether the image in a window's strip is, by algebra, as far from the apex as v is from its root, whether the window sees it or not.
-  /// Pre: v is the apex of the window's face. Remembered.
+  /// Pre: v is the apex of the window's face and not its root. Remembered.
   bool is_as_far(WindowId window, VertexId v) const;
   bool is_source(VertexId v) const noexcept { return source_of_vertex_[v] != kNone; }
   /// Whether a wave of its own sources starts at v and nothing reaches v sooner.
