@@ -1,9 +1,10 @@
 // The kernel with proofs taken away from it. Whatever it says without them it must say with them, too; the rest is undecided and says so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ using robust::ProofLimit;
 using robust::Stage;
 using test::Random;
 
-constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+/// How many questions are refused: one alone, or all that follow.
+constexpr std::array kRefused{std::uint64_t{1}, ProofLimit::kAll};
 
 /// The first ones one by one, then further and further apart, and all but one.
 std::vector<std::uint64_t> limits_up_to(std::uint64_t questions, std::uint64_t one_by_one, double factor) {
@@ -59,10 +61,10 @@ struct Combinatorics {
 template <class Make, class Tessellate>
 int expect_same_or_undecided(const Make& make, const Tessellate& tessellated) {
   std::uint64_t questions = 0;
-  const auto run = [&](std::uint64_t most, bool& undecided) {
+  const auto run = [&](std::uint64_t most, std::uint64_t refused, bool& undecided) {
     auto waves = make();
     Decisions decisions;
-    const ProofLimit limit(most);
+    const ProofLimit limit(most, refused);
     const FacetTessellation t = tessellated(waves, decisions);
     undecided = t.undecided;
     EXPECT_EQ(t.undecided, decisions.total(Stage::undecided) > 0);
@@ -71,14 +73,16 @@ int expect_same_or_undecided(const Make& make, const Tessellate& tessellated) {
     return Combinatorics(t);
   };
   bool undecided = false;
-  const Combinatorics truth = run(kUnlimited, undecided);
+  const Combinatorics truth = run(ProofLimit::kAll, 0, undecided);
   EXPECT_FALSE(undecided);
   int failed = 0;
   for (const std::uint64_t most : limits_up_to(questions, 60, 1.2)) {
-    const Combinatorics limited = run(most, undecided);
-    failed += undecided;
-    EXPECT_TRUE(undecided || limited == truth) << "with " << most << " proofs";
-    if (testing::Test::HasFailure()) return failed;
+    for (const std::uint64_t refused : kRefused) {
+      const Combinatorics limited = run(most, refused, undecided);
+      failed += undecided;
+      EXPECT_TRUE(undecided || limited == truth) << "with " << most << " proofs";
+      if (testing::Test::HasFailure()) return failed;
+    }
   }
   return failed;
 }
@@ -155,16 +159,18 @@ void expect_no_contradiction(const Mesh& mesh, const Solution& limited, const So
 
 /// Returns how many limits left something undecided.
 int expect_same_or_undecided(const Mesh& mesh, const std::vector<Source>& sources, std::uint64_t one_by_one, double factor) {
-  ProofLimit all(kUnlimited);
+  const ProofLimit all(ProofLimit::kAll);
   const Solution truth = solve(mesh, sources);
-  const std::uint64_t questions = kUnlimited - all.questions_left();
+  const std::uint64_t questions = ProofLimit::kAll - all.questions_left();
   int undecided = 0;
   for (const std::uint64_t most : limits_up_to(questions, one_by_one, factor)) {
     SCOPED_TRACE("with " + std::to_string(most) + " of " + std::to_string(questions) + " proofs");
-    const ProofLimit limit(most);
-    const Solution limited = solve(mesh, sources);
-    undecided += limited.status() != Status::certified;
-    expect_no_contradiction(mesh, limited, truth);
+    for (const std::uint64_t refused : kRefused) {
+      const ProofLimit limit(most, refused);
+      const Solution limited = solve(mesh, sources);
+      undecided += limited.status() != Status::certified;
+      expect_no_contradiction(mesh, limited, truth);
+    }
     if (testing::Test::HasFailure()) break;
   }
   return undecided;
@@ -203,7 +209,7 @@ TEST(UndecidedSolution, Regressions) {
     const fuzz::Case c = fuzz::read_case(file.path().string());
     const Mesh mesh(c.mesh);
     if (mesh.face_count() > kMostFaces) continue;
-    undecided += expect_same_or_undecided(mesh, fuzz::sources_of(mesh, c.sources), 2, 2.5);
+    undecided += expect_same_or_undecided(mesh, fuzz::sources_of(mesh, c.sources), 1, 4);
     if (HasFailure()) return;
   }
   EXPECT_GT(undecided, 0);
@@ -225,33 +231,41 @@ TEST(UndecidedSolution, FuzzedCases) {
   EXPECT_GT(undecided, 0);
 }
 
-TEST(UndecidedQuery, SameOrUndecided) {
-  Random random(2500);
+/// Returns how often a query was left undecided.
+int expect_same_or_undecided(const Solution& solution, const SurfacePoint& at) {
+  const PointAnswer truth = solution.query(at);
   int undecided = 0;
-  for (const auto& arrays : {test::flat_grid(3, 3), test::plane_with_hole(4, 4, 1, 3, 1, 2), test::cube(2), test::roof(4, 2, 4, 4), test::mirrored_terrain()}) {
-    const Mesh mesh(arrays);
-    const VertexId last = static_cast<VertexId>(mesh.vertex_count()) - 1;
-    const Solution solution = solve(mesh, at_vertices(mesh, {0, last / 2, last}));
-    for (int i = 0; i < 30; ++i) {
-      const SurfacePoint at = test::random_point(mesh, random);
-      const PointAnswer truth = solution.query(at);
-      EXPECT_FALSE(truth.undecided);
-      for (std::uint64_t most = 0;; ++most) {
-        const ProofLimit limit(most);
-        const PointAnswer limited = solution.query(at), path = solution.path(at);
-        undecided += limited.undecided;
-        EXPECT_FALSE(path.path.empty());
-        for (const PointAnswer* said : {&limited, &path}) {
-          EXPECT_TRUE(said->undecided || (said->distance == truth.distance && said->nearest == truth.nearest)) << most;
-          EXPECT_LE(said->enclosure.low, truth.enclosure.high);
-          EXPECT_GE(said->enclosure.high, truth.enclosure.low);
-        }
-        if (!limit.was_reached() || HasFailure()) break;
-      }
-      if (HasFailure()) return;
+  bool goes_on = true;
+  for (std::uint64_t i = 0; goes_on; ++i) {
+    const ProofLimit limit(i / 2, kRefused[i % 2]);
+    const PointAnswer limited = solution.query(at), path = solution.path(at);
+    undecided += limited.undecided;
+    EXPECT_FALSE(path.path.empty());
+    for (const PointAnswer* said : {&limited, &path}) {
+      EXPECT_TRUE(said->undecided || (!truth.undecided && said->distance == truth.distance && said->nearest == truth.nearest)) << "with " << i / 2 << " proofs";
+      EXPECT_LE(said->enclosure.low, truth.enclosure.high);
+      EXPECT_GE(said->enclosure.high, truth.enclosure.low);
     }
+    goes_on = limit.was_reached() && !testing::Test::HasFailure();
   }
-  EXPECT_GT(undecided, 0);
+  return undecided;
+}
+
+// Sources that mirror one another: along the lines between them, which are mesh edges, everything ties. (On rough terrain over more classes than are
+// multiplied out, so that some of it is undecided in any case.)
+TEST(UndecidedQuery, SameOrUndecided) {
+  const auto ask = [](const Mesh& mesh, const std::vector<Source>& sources) {
+    const Solution solution = solve(mesh, sources);
+    int undecided = 0;
+    for (FaceId f = 0; f < mesh.face_count() && !testing::Test::HasFailure(); ++f)
+      for (const auto& [a, b, c] : {std::array{1, 1, 0}, {1, 0, 1}, {0, 2, 3}, {3, 2, 1}}) undecided += expect_same_or_undecided(solution, test::in_face(f, a, b, c));
+    EXPECT_GT(undecided, 0);
+  };
+  const Mesh grid(test::flat_grid(4, 4)), hole(test::plane_with_hole(6, 5, 2, 4, 2, 3)), cube(test::cube(2)), terrain(test::mirrored_terrain());
+  ask(grid, at_vertices(grid, {0, 4, 20, 24}));
+  ask(hole, at_vertices(hole, {0, 6}));
+  ask(cube, at_vertices(cube, {0, static_cast<VertexId>(cube.vertex_count()) - 1}));
+  ask(terrain, test::mirrored_sources(terrain, 0));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Predicates with proofs taken away from them: of every case at exact zero and its neighbour each question to algebra is refused in turn, with all that
-// follow. The answer must be the same, or undecided.
+// Predicates with proofs taken away from them: of every case at exact zero and its neighbour each question to algebra is refused in turn, alone or with all
+// that follow. The answer must be the same, or undecided.
 #include "gvd/robust/proof_limit.hpp"
 
 #include "support/closing_fans.hpp"
@@ -28,14 +28,17 @@ struct Limited {
   template <class Ask, class Same>
   void ask(const Ask& ask, const Same& same) {
     const auto said = ask();
-    for (std::uint64_t questions = 0;; ++questions) {
-      const ProofLimit limit(questions);
-      const auto limited = ask();
-      EXPECT_TRUE(!limited || (said && same(*limited, *said))) << "with " << questions << " proofs";
-      EXPECT_TRUE(limited || !said || limit.was_reached()) << "with " << questions << " proofs";
-      if (!limit.was_reached() || testing::Test::HasFailure()) return;
-      ++asked;
-      undecided += !limited;
+    for (const std::uint64_t refused : {std::uint64_t{1}, ProofLimit::kAll}) {
+      bool goes_on = true;
+      for (std::uint64_t questions = 0; goes_on; ++questions) {
+        const ProofLimit limit(questions, refused);
+        const auto limited = ask();
+        EXPECT_TRUE(!limited || (said && same(*limited, *said))) << "with " << questions << " proofs";
+        EXPECT_TRUE(limited || !said || limit.was_reached()) << "with " << questions << " proofs";
+        goes_on = limit.was_reached() && !testing::Test::HasFailure();
+        asked += limit.was_reached();
+        undecided += !limited;
+      }
     }
   }
   template <class Ask>
