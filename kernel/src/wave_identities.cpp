@@ -277,12 +277,11 @@ bool FieldWaves::comes_nearest_to(WindowId strip, VertexId v) const {
   return resolution_.attains(w, v) || resolution_.is_as_far(w, v);
 }
 
-/// Whether the relay's image is that of its root by another way, which ends in this facet: the same way, or one with only flat vertices between, or by
-/// algebra.
+/// Whether the relay's image is that of its root by another way, which ends in this facet: with only flat vertices between, or by algebra.
 bool FieldWaves::is_image_of_root(const Sides& way, std::size_t relay) {
-  if (way.empty() || sites[relay].window == kNone) return way.empty() && sites[relay].window == kNone;
+  if (way.empty() || sites[relay].window == kNone) return false;
   const Sides own = sides_of(strip(relay));
-  return way == own || enclose_only_flat(way, own) || have_one_image_by_algebra(way, own);
+  return enclose_only_flat(way, own) || have_one_image_by_algebra(way, own);
 }
 
 bool FieldWaves::is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) {

@@ -91,9 +91,7 @@ double Difference::leave_tie(double end, int sign_elsewhere) const {
 void Difference::bracket_root(double g0, double g1, double& left, double& right) const {
   double gl = g0, gr = g1;
   for (int i = 0; i < 2 && right - left > kShortOverlap; ++i) {
-    const double x = left + (right - left) * (gl / (gl - gr));
-    if (!(x > left && x < right)) return;
-    const double width = right - left;
+    const double width = right - left, x = left + width * (gl / (gl - gr));
     for (const double probe : {x - width * 0x1p-10, x + width * 0x1p-10}) {
       if (!(probe > left && probe < right)) continue;
       const double g = value(reach(probe));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "gvd/kernel/error.hpp"
@@ -257,22 +258,33 @@ TEST(Query, SaysWhatCannotBeReached) {
   EXPECT_THROW(solution.query(outside), InputError);
 }
 
-// A point a hair beside the ray that bounds what a window sees past a corner: the path bends there, or it does not, and double-doubles cannot tell.
-TEST(Path, BesideABoundaryRay) {
-  const Mesh mesh({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}},
-                   {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {3, 4, 7}, {3, 7, 6}}});
+/// In face 3, with the corners 1, 5 and 4, of which the last one bounds what is seen of the face.
+void expect_bends_beside_ray(const Mesh& mesh, const Solution& solution) {
   constexpr VertexId kCorner = 4;
-  const Solution solution = test::solve_field(mesh, {test::vertex_source(mesh, 6)});
+  const std::map<VertexId, int> sign{{1, -1}, {5, 1}, {kCorner, 0}};
   for (const int bits : {10, 60, 150, 300}) {
     for (const int side : {1, -1}) {
-      const mpq_class off = side * robust::power_of_two(-bits);
-      const SurfacePoint at = point_in_face(mesh, 3, {mpq_class(1, 4) - off, mpq_class(1, 4) + off, mpq_class(1, 2)});
-      const PointAnswer answer = solution.path(at);
+      std::array<mpq_class, 3> weight;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const VertexId v = mesh.origin(9 + k);
+        weight[k] = (v == kCorner ? mpq_class(1, 2) : mpq_class(1, 4)) + side * sign.at(v) * robust::power_of_two(-bits);
+      }
+      const PointAnswer answer = solution.path(point_in_face(mesh, 3, weight));
       EXPECT_FALSE(answer.undecided);
       const bool bends = std::any_of(answer.path.begin(), answer.path.end(), [&](const PathPoint& p) { return p.vertex == kCorner; });
       EXPECT_EQ(bends, side > 0) << bits;
       EXPECT_NEAR(answer.distance, 1.25 * std::sqrt(2.0), 0.01);
     }
+  }
+}
+
+// A point a hair beside the ray that bounds what a window sees past a corner: the path bends there, or it does not, and double-doubles cannot tell.
+TEST(Path, BesideABoundaryRay) {
+  for (const double mirror : {1, -1}) {
+    const double x = mirror, two = 2 * mirror;
+    const Mesh mesh({{{0, 0, 0}, {x, 0, 0}, {two, 0, 0}, {0, 1, 0}, {x, 1, 0}, {two, 1, 0}, {0, 2, 0}, {x, 2, 0}},
+                     {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {3, 4, 7}, {3, 7, 6}}});
+    expect_bends_beside_ray(mesh, test::solve_field(mesh, {test::vertex_source(mesh, 6)}));
   }
 }
 

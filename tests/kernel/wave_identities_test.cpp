@@ -45,6 +45,8 @@ class Questions {
     for (std::size_t a = 0; a < site_.size(); ++a)
       for (std::size_t b = 0; b < site_.size(); ++b)
         if (a != b) ask(a, b);
+    for (std::uint32_t a = 0; a < site_.size(); ++a)
+      for (std::uint32_t b = 0; b < a; ++b) ask_where_they_part(a, b);
   }
 
  private:
@@ -95,6 +97,16 @@ class Questions {
         expect("relay at the cone", waves_.is_at_cone_vertex(a, b), are_one(of_a.cone[end], of_b.image));
       if (own) expect("relay on the ray", waves_.is_relay_on_ray(a, end, b), is_zero(cross(of_a.cone[end] - of_a.image, of_b.image - of_a.image)));
     }
+  }
+
+  /// Farther back the unit is another one, but weights and images differ in proportion.
+  void ask_where_they_part(std::uint32_t a, std::uint32_t b) {
+    const auto back = waves_.where_they_part(std::array{a, b});
+    if (back.empty() || !back[0].weight.is_defined() || !back[1].weight.is_defined()) return;
+    const auto number = [](const robust::Exact& x) { return x.enclosure(kBits); };
+    const Number late = number(back[0].weight - back[1].weight), apart = number(squared_norm(back[0].image - back[1].image));
+    const Number late_here = site_[a].weight - site_[b].weight, apart_here = squared_norm(site_[a].image - site_[b].image);
+    expect("where they part", true, is_zero(square(late) * apart_here - square(late_here) * apart));
   }
 
   FieldWaves& waves_;
@@ -156,7 +168,7 @@ TEST(WaveIdentities, OfPlanesAndBlocks) {
     ask_all(mesh, at_vertices(mesh, {0, last / 2, last}), found);
     if (HasFailure()) return;
   }
-  expect_found(found, {"one image", "one wave", "mirror images", "as far from a corner", "relay on the way", "relay at the cone", "across an edge"});
+  expect_found(found, {"one image", "one wave", "mirror images", "as far from a corner", "relay on the way", "relay at the cone", "across an edge", "where they part"});
 }
 
 // Two triangles, and a source at the corner of each that is off the edge between them: the edge is as far from both if one is the other's mirror image.
@@ -167,6 +179,21 @@ TEST(WaveIdentities, OfCornersAcrossAnEdge) {
     ask_all(mesh, at_vertices(mesh, {2, 3}), found);
     EXPECT_EQ(found["across an edge"] > 0, apex == -1.0);
   }
+}
+
+// What others have unfolded saves work and changes nothing, also where they lack a window.
+TEST(WaveIdentities, WindowsThatNobodyUnfolded) {
+  const Mesh mesh(test::mirrored_terrain());
+  const test::FieldFacets field(mesh, test::mirrored_sources(mesh, 0));
+  const UnfoldedWindows none = field.unfolded({});
+  field.for_each_boundary_facet([&](FieldWaves& facet) {
+    const auto other = field.waves_of(facet.face, &none);
+    ASSERT_EQ(other->sites.size(), facet.sites.size());
+    for (std::size_t i = 0; i < facet.sites.size(); ++i) {
+      EXPECT_EQ(other->sites[i].window, facet.sites[i].window);
+      EXPECT_EQ(other->site(i, FacetWaves::F()).image.x.mid(), facet.site(i, FacetWaves::F()).image.x.mid());
+    }
+  });
 }
 
 TEST(WaveIdentities, OfMirroredTerrain) {

@@ -31,7 +31,10 @@ class FieldFacets {
 
   const kernel::Mesh& mesh() const { return refined_; }
   const kernel::Resolution& resolution() const { return *resolution_; }
-  std::unique_ptr<kernel::FieldWaves> waves_of(kernel::FaceId f) const { return std::make_unique<kernel::FieldWaves>(*resolution_, kinds_, f); }
+  std::unique_ptr<kernel::FieldWaves> waves_of(kernel::FaceId f, const kernel::UnfoldedWindows* unfolded = nullptr) const {
+    return std::make_unique<kernel::FieldWaves>(*resolution_, kinds_, f, unfolded);
+  }
+  kernel::UnfoldedWindows unfolded(const std::vector<kernel::WindowId>& windows) const { return {*frames_, field_, windows}; }
   /// Calls visit(waves) for every facet that waves of several label sets may reach.
   void for_each_boundary_facet(const std::function<void(kernel::FieldWaves&)>& visit) const {
     for (kernel::FaceId f = 0; f < refined_.face_count(); ++f) {
