@@ -18,20 +18,25 @@ std::string st_helens_path() {
 
 }  // namespace
 
-const kernel::Mesh& st_helens() {
-  static const kernel::Mesh mesh = [] {
+const kernel::MeshArrays& st_helens_arrays() {
+  static const kernel::MeshArrays arrays = [] {
     const std::string path = st_helens_path();
-    return kernel::Mesh(path.empty() ? generated_terrain(17222, 1) : io::read_mesh(path));
+    return path.empty() ? generated_terrain(17222, 1) : io::read_mesh(path);
   }();
+  return arrays;
+}
+
+const kernel::Mesh& st_helens() {
+  static const kernel::Mesh mesh(st_helens_arrays());
   return mesh;
 }
 
 std::string st_helens_name() { return st_helens_path().empty() ? "generated terrain" : "St Helens TIN"; }
 
-const kernel::Mesh& terrain(std::uint32_t faces) {
+const kernel::MeshArrays& terrain(std::uint32_t faces) {
   static std::uint32_t kept_faces = 0;
-  static kernel::Mesh kept;
-  if (kept_faces != faces) kept = kernel::Mesh(generated_terrain(faces, 1));
+  static kernel::MeshArrays kept;
+  if (kept_faces != faces) kept = generated_terrain(faces, 1);
   kept_faces = faces;
   return kept;
 }
