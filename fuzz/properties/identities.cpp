@@ -7,6 +7,7 @@
 #include "contenders.hpp"
 #include "edge_images.hpp"
 #include "fuzz/properties/facets.hpp"
+#include "fuzz/properties/many_bits.hpp"
 #include "fuzz/properties/property.hpp"
 #include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/predicates/wave.hpp"
@@ -27,10 +28,6 @@ using M = kernel::FacetWaves::M;
 using predicates::operator-;
 using predicates::operator+;
 
-constexpr int kBits = 512;
-
-template <class NT>
-bool differs(const NT& x) { return maybe_sign(x).value_or(Sign::zero) != Sign::zero; }
 template <class NT>
 bool differ(const predicates::PlanePoint<NT>& a, const predicates::PlanePoint<NT>& b) { return differs(a.x - b.x) || differs(a.y - b.y); }
 /// Whether a point is certainly not on the line of a boundary ray.
@@ -45,14 +42,14 @@ class Judge {
   using Site = predicates::Site<NT>;
 
   Judge(const Facets& facets, FaceId f) : facets_(facets), waves_(facets.waves(f)) {
-    load_numbers(*waves_, kBits, numbers_);
+    load_numbers(*waves_, kManyBits, numbers_);
     unit_ = numbers_.frame->length.scaled(-facets.resolution().frames().scale());
   }
   const Site& operator[](std::size_t site) const { return *numbers_.sites[site]; }
   const predicates::SideLine<NT>& side(std::size_t k) const { return numbers_.side[k]; }
   const Point& corner(std::size_t k) const { return numbers_.side[k].origin; }
   /// Exact enough for NT = M only.
-  M distance_of(VertexId v) const { return facets_.resolution().distance(v, kBits) / unit_; }
+  M distance_of(VertexId v) const { return facets_.resolution().distance(v, kManyBits) / unit_; }
   /// In units of the side, which may be read backwards: foot, height, weight.
   std::array<NT, 3> along(std::size_t site, std::size_t k, bool backwards) const {
     const auto z = kernel::seen_from_side(side(k), (*this)[site].image);
@@ -228,13 +225,13 @@ std::string fault_at(const Facets& facets, VertexId v) {
   const auto& resolution = facets.resolution();
   const auto& field = resolution.field();
   const auto& frames = resolution.frames();
-  const double unit = predicates::unit<robust::Mpfr>(kBits);
+  const double unit = predicates::unit<robust::Mpfr>(kManyBits);
   const auto is_other = [&](VertexId via, kernel::WindowId window) {
     const HalfedgeId h = window == kNone ? resolution.edge_between(via, v) : field.windows[window].halfedge();
-    const auto frame = frames.in_mpfr(kernel::Mesh::face(h), kBits)[h % 3];
+    const auto frame = frames.in_mpfr(kernel::Mesh::face(h), kManyBits)[h % 3];
     const M leg = window == kNone ? predicates::enclosed_length(frame, unit)
-                                  : predicates::last_leg(unfold_mpfr(frames, strip_of(facets.mesh(), field, window), kBits).image, frame, unit);
-    return differs(resolution.distance(via, kBits) + leg - resolution.distance(v, kBits));
+                                  : predicates::last_leg(unfold_mpfr(frames, strip_of(facets.mesh(), field, window), kManyBits).image, frame, unit);
+    return differs(resolution.distance(via, kManyBits) + leg - resolution.distance(v, kManyBits));
   };
   std::string fault;
   for (std::uint32_t c = field.first_candidate[v]; c != kNone; c = field.candidates[c].next)
@@ -245,7 +242,7 @@ std::string fault_at(const Facets& facets, VertexId v) {
       if (field.windows[w].root != v && resolution.is_as_far(w, v) && is_other(field.windows[w].root, w)) fault = fmt::format("vertex {}: a window that is as far", v);
   });
   for (VertexId u = 0; u < v; ++u)
-    if (resolution.is_reached(u) && resolution.have_equal_distances(u, v) && differs(resolution.distance(u, kBits) - resolution.distance(v, kBits)))
+    if (resolution.is_reached(u) && resolution.have_equal_distances(u, v) && differs(resolution.distance(u, kManyBits) - resolution.distance(v, kManyBits)))
       return fmt::format("vertices {} and {}: as far", u, v);
   return fault;
 }

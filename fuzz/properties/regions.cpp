@@ -10,6 +10,7 @@
 
 #include "edge_images.hpp"
 #include "fuzz/properties/facets.hpp"
+#include "fuzz/properties/many_bits.hpp"
 #include "fuzz/properties/property.hpp"
 #include "gvd/kernel/facet_numbers.hpp"
 #include "gvd/kernel/tessellation.hpp"
@@ -31,10 +32,6 @@ using predicates::operator-;
 using predicates::operator+;
 using predicates::operator*;
 
-constexpr int kBits = 512;
-
-bool differs(const M& x) { return maybe_sign(x).value_or(Sign::zero) != Sign::zero; }
-
 /// A finished facet against the least of all its waves with so many bits that what does not tie differs: however it was decided, in nodes, in the middle
 /// of arcs and of pieces of the outline, and at drawn points.
 class FinishedFacet {
@@ -42,7 +39,7 @@ class FinishedFacet {
   FinishedFacet(const Facets& facets, FaceId f) : waves_(facets.waves(f)) {
     predicates::Decisions decisions;
     tess_ = tessellate(*facets.waves(f), decisions);
-    load_numbers(*waves_, kBits, numbers_);
+    load_numbers(*waves_, kManyBits, numbers_);
   }
   bool undecided() const { return tess_.undecided; }
   kernel::BoundaryFacet as_input() const { return {waves_->face, waves_.get(), &tess_}; }

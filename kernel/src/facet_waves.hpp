@@ -13,6 +13,7 @@
 #include "gvd/kernel/facet.hpp"
 #include "gvd/kernel/resolution.hpp"
 #include "gvd/kernel/unfolding.hpp"
+#include "strip_parting.hpp"
 #include "unfolded_windows.hpp"
 #include "window_interval.hpp"
 
@@ -105,9 +106,11 @@ class FieldWaves final : public FacetWaves {
   template <class T>
   predicates::FacetFrame<robust::Ball<T>> make_frame(const predicates::EdgeFrame<T>& first, double unit) const;
   void make_exact();
-  HalfedgeId common_side(std::span<const std::uint32_t> which, std::span<const WindowId> windows) const;
+  HalfedgeId common_side(std::span<const WindowId> windows, std::span<const VertexId> roots) const;
   bool step_back(std::vector<WindowId>& windows) const;
   bool step_over_detours(std::vector<WindowId>& windows);
+  std::optional<Parting> parting_of_strips(std::vector<WindowId> back, std::span<const VertexId> roots);
+  std::vector<predicates::Site<robust::Exact>> sites_at(const Parting& parting, std::span<const VertexId> roots);
   robust::Exact exact_weight(VertexId root, const robust::Exact& unit) const;
   predicates::Site<robust::Exact> make_exact_site(const FacetSite& site) const;
 
