@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -41,6 +42,19 @@ class Facets {
     return std::make_unique<kernel::FieldWaves>(*resolution_, kinds_, f);
   }
   const kernel::Resolution& resolution() const { return *resolution_; }
+  /// A drawn face and those around it, so many that looking at their waves with many bits costs about the same on every mesh; only faces that are reached.
+  std::vector<kernel::FaceId> patch(Draw& draw) const {
+    constexpr std::size_t kMost = 24;
+    std::vector<kernel::FaceId> faces;
+    const auto add = [&](kernel::FaceId f) {
+      if (faces.size() < kMost && is_reached(f) && std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
+    };
+    add(draw.below(refined_.face_count()));
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (kernel::HalfedgeId h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
+        if (refined_.twin(h) != kernel::kNone) add(kernel::Mesh::face(refined_.twin(h)));
+    return faces;
+  }
   const std::vector<kernel::VertexKind>& kinds() const { return kinds_; }
 
  private:
