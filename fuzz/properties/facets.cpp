@@ -82,7 +82,7 @@ Outcome no_enclave(Trial& t) {
 }
 
 constexpr std::array<Property, 1> kProperties = {{
-    {"no_enclave", no_enclave, 16,
+    {"no_enclave", no_enclave, 24,
      "every region of a facet touches its window, its source or its relaying corner, and is star-shaped from its image"},
 }};
 
