@@ -93,6 +93,7 @@ class FieldWaves final : public FacetWaves {
   WindowId arrival(WindowId strip, VertexId v) const;
   bool has_relay_on_strip(std::size_t parent, std::size_t relay);
   bool comes_nearest_to(WindowId strip, VertexId v) const;
+  bool bounds_cone(WindowId strip, std::size_t end, VertexId v) const;
   bool comes_straight_through(VertexId nearer, VertexId farther, WindowId strip) const;
   bool is_image_of_root(const Sides& way, std::size_t relay);
   bool has_relay_on_other_way(std::size_t parent, std::size_t relay);

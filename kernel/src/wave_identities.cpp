@@ -264,7 +264,7 @@ bool FieldWaves::has_relay_on_strip(std::size_t parent, std::size_t relay) {
   const WindowId turn = last_turn(sites[parent].window, v);
   if (turn == kNone) return false;
   if (!goes_on_as(sites[parent].window, turn, sites[relay].window) && !is_image_of_root(*sides_since(sites[parent].window, v), relay)) return false;
-  return comes_nearest_to(sites[parent].window, v);
+  return comes_nearest_to(turn, v);  // from there on it may see the vertex in other places
 }
 
 /// Whether a strip shows a vertex, about which it turned, as far as that is.
@@ -283,9 +283,19 @@ bool FieldWaves::is_image_of_root(const Sides& way, std::size_t relay) {
   return enclose_only_flat(way, own) || have_one_image_by_algebra(way, own);
 }
 
+/// Whether a strip's cone ends at a vertex, which may be a corner of the facet in another place.
+bool FieldWaves::bounds_cone(WindowId strip, std::size_t end, VertexId v) const {
+  const Mesh& mesh = resolution_.frames().mesh();
+  const UnfoldedWindows::Entry unfolded = UnfoldedWindows::alone(resolution_.frames(), field_, strip);
+  const HalfedgeId first = field_.windows[unfolded.first].halfedge();
+  if (unfolded.bound[end] == kNone) return v == (end == 0 ? mesh.origin(first) : mesh.target(first));
+  return v == mesh.apex(field_.windows[unfolded.bound[end]].halfedge());
+}
+
 bool FieldWaves::is_relay_on_ray(std::size_t parent, std::size_t end, std::size_t relay) {
   const WindowId strip = sites[parent].window;
   const VertexId bound = sites[parent].cone[end], v = sites[relay].root;
+  if (bound == kNone) return bounds_cone(strip, end, v) && has_relay_on_strip(parent, relay);
   if (!sites[parent].attains_cone[end] || !sides_since(strip, bound)) return false;
   if (!has_relay_on_strip(parent, relay)) return false;
   return v == bound || comes_straight_through(v, bound, strip) || comes_straight_through(bound, v, strip);

@@ -95,7 +95,9 @@ class Questions {
       const FacetSite& parent = waves_.sites[a];
       if (parent.cone[end] == other.root && parent.attains_cone[end])
         expect("relay at the cone", waves_.is_at_cone_vertex(a, b), are_one(of_a.cone[end], of_b.image));
-      if (own) expect("relay on the ray", waves_.is_relay_on_ray(a, end, b), is_zero(cross(of_a.cone[end] - of_a.image, of_b.image - of_a.image)));
+      if (own)
+        expect(parent.cone[end] == kNone ? "relay on the ray of a corner" : "relay on the ray", waves_.is_relay_on_ray(a, end, b),
+               is_zero(cross(of_a.cone[end] - of_a.image, of_b.image - of_a.image)));
     }
   }
 
@@ -222,6 +224,29 @@ TEST(WaveIdentities, OfRegressions) {
     if (HasFailure()) return;
   }
   expect_found(found, {"one image", "one cone vertex", "mirror images", "mirrored on the strip", "mirrored at the cone", "relay on the way", "relay on the ray"});
+}
+
+// Waves that come once round a vertex and see a corner of the facet where it is and where they passed it: a ray through there has no vertex with that name.
+TEST(WaveIdentities, OfCornersPassedBefore) {
+  fuzz::Wish wish;
+  wish.size = 6;
+  wish.sources = 3;
+  wish.weighted = 0;
+  wish.family = "floating_tin";
+  Found found;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const fuzz::Case c = fuzz::make_case(seed, wish);
+    const Mesh mesh(c.mesh);
+    const auto sources = fuzz::sources_of(mesh, c.sources);
+    if (!are_apart(mesh, sources)) continue;
+    const test::FieldFacets field(mesh, sources);
+    field.for_each_boundary_facet([&](FieldWaves& facet) {
+      const auto has_no_name = [](const FacetSite& site) { return site.window != kNone && (site.cone[0] == kNone || site.cone[1] == kNone); };
+      if (std::any_of(facet.sites.begin(), facet.sites.end(), has_no_name)) Questions(facet, found).ask_all();
+    });
+    if (HasFailure()) return;
+  }
+  expect_found(found, {"relay on the ray of a corner"});
 }
 
 TEST(WaveIdentities, OfFuzzedCases) {
