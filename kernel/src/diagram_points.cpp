@@ -132,13 +132,15 @@ class PointBuilder {
     if (on_side) {
       const auto side = predicates::side_line(facet.frame(), node.where);
       const auto t = predicates::side_tie_near(side, wave(def[0]), wave(def[1]), node.t.mid(), node.t.rad());
-      return PointNumbers<FacetWaves::DD>{facet.on_side(node.where, t), facet.placed(predicates::point_at(side, t))};
+      return PointNumbers<FacetWaves::DD>{coordinates(facet.on_side(node.where, t)), facet.placed(predicates::point_of_side(side, t))};
     }
     const predicates::NearPoint start{{node.x.mid(), node.y.mid()}, (node.x.rad() + node.y.rad()) * (1 + 0x1p-50)};
     const auto p = on_ray ? predicates::ray_vertex_near(wave(node.ray), wave(def[0]), wave(def[1]), start)
                           : predicates::vertex_near(wave(def[0]), wave(def[1]), wave(def[2]), start);
-    return PointNumbers<FacetWaves::DD>{facet.in_space(p), facet.placed(p)};
+    return PointNumbers<FacetWaves::DD>{coordinates(facet.in_space(p)), facet.placed(p)};
   }
+
+  static std::array<FacetWaves::DD, 3> coordinates(const robust::BallQuad& p) { return {p.lane(0), p.lane(1), p.lane(2)}; }
 
   template <class NT>
   PointNumbers<NT> numbers(const Skeleton& facet, const Node& node, int bits) const {

@@ -2,20 +2,28 @@
 
 namespace gvd::kernel::subdivision {
 
-PreciseFacet::PreciseFacet(const DiagramInput& in, const Skeleton& facet) : frame_(facet.waves->precise_frame()) {
+namespace {
+
+robust::BallQuad corner_in_lanes(const Mesh& mesh, VertexId v) {
+  const auto p = position_in<PreciseFacet::NT>(mesh, v, 0);
+  return {p[0], p[1], p[2], PreciseFacet::NT()};
+}
+
+}  // namespace
+
+PreciseFacet::PreciseFacet(const DiagramInput& in, const Skeleton& facet)
+    : frame_(facet.waves->precise_frame()),
+      corner_{corner_in_lanes(in.refined, in.refined.origin(3 * facet.face)), corner_in_lanes(in.refined, in.refined.origin(3 * facet.face + 1)),
+              corner_in_lanes(in.refined, in.refined.origin(3 * facet.face + 2))} {
   const FaceId face = in.refined.input_face(facet.face);
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const VertexId v = in.refined.origin(3 * facet.face + k);
-    whole_ = whole_ && v == in.input.origin(3 * face + k);
-    corner_[k] = position_in<NT>(in.refined, v, 0);
-  }
+  for (std::uint32_t k = 0; k < 3; ++k) whole_ = whole_ && in.refined.origin(3 * facet.face + k) == in.input.origin(3 * face + k);
   if (whole_) return;
   const FaceMap<NT> map(in.input, in.refined, facet.face, &frame_, 0);
   base_ = map.corner(0);
   turn_ = map.turn();
 }
 
-std::array<PreciseFacet::NT, 3> PreciseFacet::in_space(const P& p) {
+robust::BallQuad PreciseFacet::in_space(const P& p) {
   if (!space_) space_ = predicates::frame_in_space(corner_, frame_.apex);
   return predicates::in_space(*space_, p);
 }

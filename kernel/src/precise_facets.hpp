@@ -23,15 +23,16 @@ class PreciseFacet {
   const predicates::FacetFrame<NT>& frame() const { return frame_; }
   /// In the frame of the input face.
   P placed(const P& p) const { return whole_ ? predicates::multiple(frame_.length, p) : predicates::turned_and_moved(base_, turn_, p); }
-  std::array<NT, 3> in_space(const P& p);
-  /// The point of a side with parameter t.
-  std::array<NT, 3> on_side(std::size_t side, const NT& t) const { return predicates::between(corner_[side], corner_[(side + 1) % 3], t); }
+  /// Its coordinates in the first three lanes.
+  robust::BallQuad in_space(const P& p);
+  /// The same for the point of a side with parameter t.
+  robust::BallQuad on_side(std::size_t side, const NT& t) const { return predicates::between(corner_[side], corner_[(side + 1) % 3], t); }
 
  private:
   predicates::FacetFrame<NT> frame_;
   bool whole_ = true;
   P base_, turn_;
-  std::array<std::array<NT, 3>, 3> corner_;
+  std::array<robust::BallQuad, 3> corner_;
   std::optional<predicates::FrameInSpace> space_;  // on demand
 };
 

@@ -1,5 +1,4 @@
 #include "fused_multiply_add.hpp"
-#include "gvd/predicates/face_frames.hpp"
 #include "gvd/predicates/strip.hpp"
 
 namespace gvd::predicates {
@@ -8,7 +7,6 @@ using robust::DoubleDouble;
 
 namespace {
 
-using Side = Vector<DoubleDouble>;
 using Frame = EdgeFrame<DoubleDouble>;
 
 inline Disc<DoubleDouble> cross_here(const Disc<DoubleDouble>& z, const DoubleDoubleStep& step) {
@@ -29,9 +27,6 @@ GVD_FMA Disc<DoubleDouble> cross_by_fma(const Disc<DoubleDouble>& z, const Doubl
 template <bool kCone>
 GVD_FMA void unfold_steps_by_fma(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {
   unfold_steps_here<kCone>(at, steps);
-}
-GVD_FMA std::array<Frame, 3> face_frames_by_fma(const Side& ab, const Side& bc, const Side& ca) {
-  return face_frames<DoubleDouble>(ab, bc, ca);
 }
 #endif
 
@@ -54,12 +49,5 @@ void unfold_steps(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep>
 }
 template void unfold_steps<false>(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
 template void unfold_steps<true>(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
-
-std::array<Frame, 3> face_frames(const Side& ab, const Side& bc, const Side& ca) {
-#ifdef GVD_CHOOSES_FMA
-  if (has_fma()) return face_frames_by_fma(ab, bc, ca);
-#endif
-  return face_frames<DoubleDouble>(ab, bc, ca);
-}
 
 }  // namespace gvd::predicates

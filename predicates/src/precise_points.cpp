@@ -8,7 +8,9 @@
 
 namespace gvd::predicates {
 
+using robust::BallQuad;
 using robust::DoubleDouble;
+using robust::DoubleQuad;
 
 namespace {
 
@@ -22,21 +24,28 @@ Ball nothing() { return {DoubleDouble(0.0), kInfinity}; }
 double size_of(const PrecisePoint& p) { return std::fabs(p.x.mid().hi) + std::fabs(p.y.mid().hi); }
 double error_of(const PrecisePoint& p) { return p.x.rad() + p.y.rad(); }
 
-/// A wave as a point sees it.
-struct Sight {
-  Ball value;           ///< weight + distance to the image
-  DoublePoint unit;     ///< gradient of the value
-  double reach, error;  ///< distance to the image, and how far the two points may be off
-  /// Bounds of the gradient's error but for rounding, and of half the second derivative within a quarter of the reach.
-  double turn() const { return 4 * error / reach; }
-  double curvature() const { return 1 / reach; }
+/// Up to four waves as a point sees them, one a lane.
+struct Sights {
+  BallQuad value;                 ///< weight + distance to the image
+  DoubleQuad unit_x, unit_y;      ///< gradient of the value
+  DoubleQuad reach, error;        ///< distance to the image, and how far the two points may be off
+  DoubleQuad turn, curvature;     ///< bounds of the gradient's error but for rounding, and of half the second derivative within a quarter of the reach
+
+  double unit_x_from(std::size_t a, std::size_t b) const { return unit_x[b] - unit_x[a]; }
+  double unit_y_from(std::size_t a, std::size_t b) const { return unit_y[b] - unit_y[a]; }
+  bool are_far(std::size_t count, double radius) const {
+    bool far = true;
+    for (std::size_t k = 0; k < count; ++k) far = far && 4 * radius < reach[k] && 4 * error[k] < reach[k];
+    return far;
+  }
 };
 
-inline Sight sight(const PreciseWave& wave, const PrecisePoint& p) {
-  const PrecisePoint away = p - wave.image;
-  const Ball reach = sqrt(squared_norm(away));
-  const double r = reach.mid().hi;
-  return {wave.weight + reach, {away.x.mid().hi / r, away.y.mid().hi / r}, r, error_of(away)};
+inline Sights sights(const PreciseWave& a, const PreciseWave& b, const PreciseWave& c, const BallQuad& x, const BallQuad& y) {
+  const BallQuad away_x = x - BallQuad(a.image.x, b.image.x, c.image.x, c.image.x), away_y = y - BallQuad(a.image.y, b.image.y, c.image.y, c.image.y);
+  const BallQuad reach = sqrt(square(away_x) + square(away_y));
+  const DoubleQuad r = reach.mid().hi, error = away_x.rad() + away_y.rad();
+  return {BallQuad(a.weight, b.weight, c.weight, c.weight) + reach, away_x.mid().hi / r, away_y.mid().hi / r, r, error,
+          robust::quad(4) * error / r, robust::quad(1) / r};
 }
 
 /// A residual as a double: what it is off by.
@@ -71,51 +80,61 @@ inline PrecisePoint newton_step(const Equations& eq, const NearPoint& start) {
   return {Ball(robust::two_sum(start.at.x, step.x), left), Ball(robust::two_sum(start.at.y, step.y), left)};
 }
 
-inline bool is_far(const Sight& sight, double radius) { return 4 * radius < sight.reach && 4 * sight.error < sight.reach; }
-
 inline PrecisePoint vertex_near_here(const PreciseWave& i, const PreciseWave& j, const PreciseWave& k, const NearPoint& start) {
-  const PrecisePoint p{Ball(start.at.x), Ball(start.at.y)};
-  const Sight si = sight(i, p), sj = sight(j, p), sk = sight(k, p);
-  if (!is_far(si, start.radius) || !is_far(sj, start.radius) || !is_far(sk, start.radius)) return {nothing(), nothing()};
-  const Ball fi = si.value - sj.value, fk = sk.value - sj.value;
+  const Sights seen = sights(j, i, k, BallQuad(Ball(start.at.x)), BallQuad(Ball(start.at.y)));
+  if (!seen.are_far(3, start.radius)) return {nothing(), nothing()};
+  const BallQuad lead = seen.value - seen.value.lanes<0, 0, 0, 0>();
+  const Ball fi = lead.lane(1), fk = lead.lane(2);
   return newton_step({{fi.mid().hi, fk.mid().hi},
-                      {DoublePoint{si.unit.x - sj.unit.x, si.unit.y - sj.unit.y}, DoublePoint{sk.unit.x - sj.unit.x, sk.unit.y - sj.unit.y}},
+                      {DoublePoint{seen.unit_x_from(0, 1), seen.unit_y_from(0, 1)}, DoublePoint{seen.unit_x_from(0, 2), seen.unit_y_from(0, 2)}},
                       rest_of(fi) + rest_of(fk),
-                      32 * kUnit + si.turn() + 2 * sj.turn() + sk.turn(),
-                      si.curvature() + 2 * sj.curvature() + sk.curvature()},
+                      32 * kUnit + seen.turn[1] + 2 * seen.turn[0] + seen.turn[2],
+                      seen.curvature[1] + 2 * seen.curvature[0] + seen.curvature[2]},
                      start);
 }
 
 inline PrecisePoint ray_vertex_near_here(const PreciseWave& parent, const PreciseWave& relay, const PreciseWave& other, const NearPoint& start) {
-  const PrecisePoint p{Ball(start.at.x), Ball(start.at.y)};
-  const Sight to_relay = sight(relay, p), to_other = sight(other, p);
-  const PrecisePoint ray = relay.image - parent.image;
-  const double size = size_of(ray), ray_error = error_of(ray);
-  if (!is_far(to_relay, start.radius) || !is_far(to_other, start.radius) || !(4 * ray_error < size)) return {nothing(), nothing()};
-  const Ball off = cross(ray, p - relay.image), lead = to_other.value - to_relay.value;
+  const Sights seen = sights(relay, other, other, BallQuad(Ball(start.at.x)), BallQuad(Ball(start.at.y)));
+  const BallQuad from(relay.image.x, relay.image.y, relay.image.y, relay.image.x);
+  const BallQuad ray = from - BallQuad(parent.image.x, parent.image.y, parent.image.y, parent.image.x);  // x, y, y, x
+  const double size = std::fabs(ray.mid().hi[0]) + std::fabs(ray.mid().hi[1]), ray_error = ray.rad()[0] + ray.rad()[1];
+  if (!seen.are_far(2, start.radius) || !(4 * ray_error < size)) return {nothing(), nothing()};
+  const Ball x(start.at.x), y(start.at.y);
+  const BallQuad products = ray * (BallQuad(y, x, x, y) - from.lanes<1, 0, 0, 1>());
+  const Ball off = products.lane(0) - products.lane(1), lead = seen.value.lane(1) - seen.value.lane(0);
   const double scale = 1 / size;
   return newton_step({{scale * off.mid().hi, lead.mid().hi},
-                      {DoublePoint{-scale * ray.y.mid().hi, scale * ray.x.mid().hi},
-                       DoublePoint{to_other.unit.x - to_relay.unit.x, to_other.unit.y - to_relay.unit.y}},
+                      {DoublePoint{-scale * ray.mid().hi[1], scale * ray.mid().hi[0]}, DoublePoint{seen.unit_x_from(0, 1), seen.unit_y_from(0, 1)}},
                       scale * (off.rad() + 2 * kUnit * std::fabs(off.mid().hi)) + rest_of(lead),
-                      32 * kUnit + to_relay.turn() + to_other.turn() + 4 * ray_error * scale,
-                      to_relay.curvature() + to_other.curvature()},
+                      32 * kUnit + seen.turn[0] + seen.turn[1] + 4 * ray_error * scale,
+                      seen.curvature[0] + seen.curvature[1]},
                      start);
 }
 
+/// x and y of the point in all lanes each.
+inline BallQuad at_parameter(const SideLine<Ball>& side, const Ball& t) {
+  const auto& [o, d] = std::pair(side.origin, side.direction);
+  return BallQuad(o.x, o.y, o.x, o.y) + BallQuad(t) * BallQuad(d.x, d.y, d.x, d.y);
+}
+
 inline Ball side_tie_near_here(const SideLine<Ball>& side, const PreciseWave& from, const PreciseWave& to, double start, double radius) {
-  const PrecisePoint p = point_at(side, Ball(start));
-  const Sight of_from = sight(from, p), of_to = sight(to, p);
+  const BallQuad p = at_parameter(side, Ball(start));
+  const Sights seen = sights(from, to, to, p.lanes<0, 0, 0, 0>(), p.lanes<1, 1, 1, 1>());
   const double length = size_of(side.direction) * kRoundings;
-  if (!is_far(of_from, radius * length) || !is_far(of_to, radius * length)) return nothing();
-  const Ball lead = of_to.value - of_from.value;
-  const double slope = side.direction.x.mid().hi * (of_to.unit.x - of_from.unit.x) + side.direction.y.mid().hi * (of_to.unit.y - of_from.unit.y);
+  if (!seen.are_far(2, radius * length)) return nothing();
+  const Ball lead = seen.value.lane(1) - seen.value.lane(0);
+  const double slope = side.direction.x.mid().hi * seen.unit_x_from(0, 1) + side.direction.y.mid().hi * seen.unit_y_from(0, 1);
   const double step = -lead.mid().hi / slope, inverse = kRoundings / std::fabs(slope);
-  const double turn = length * (32 * kUnit + of_from.turn() + of_to.turn()) + 2 * error_of(side.direction);
-  const double curvature = length * length * (of_from.curvature() + of_to.curvature());
+  const double turn = length * (32 * kUnit + seen.turn[0] + seen.turn[1]) + 2 * error_of(side.direction);
+  const double curvature = length * length * (seen.curvature[0] + seen.curvature[1]);
   const double fixed = inverse * (rest_of(lead) + 2 * kUnit * std::fabs(lead.mid().hi));
   const double left = left_by_step(std::fabs(step), fixed, inverse * turn, inverse * curvature, radius);
   return {robust::two_sum(start, step), left};
+}
+
+inline PrecisePoint point_of_side_here(const SideLine<Ball>& side, const Ball& t) {
+  const BallQuad p = at_parameter(side, t);
+  return {p.lane(0), p.lane(1)};
 }
 
 inline PreciseWave wave_over_side_here(const Disc<DoubleDouble>& image, unsigned side, const Ball& distance, const EdgeFrame<DoubleDouble>& first) {
@@ -123,27 +142,16 @@ inline PreciseWave wave_over_side_here(const Disc<DoubleDouble>& image, unsigned
   return {at_first_side(image, side, enclosed_apex(first, u)), distance / enclosed_length(first, u)};
 }
 
-inline FrameInSpace frame_in_space_here(const std::array<std::array<Ball, 3>, 3>& corner, const PrecisePoint& apex) {
-  FrameInSpace frame;
-  for (std::size_t i = 0; i < 3; ++i) {
-    frame.origin[i] = corner[0][i];
-    frame.along[i] = corner[1][i] - corner[0][i];
-    frame.across[i] = ((corner[2][i] - corner[0][i]) - apex.x * frame.along[i]) / apex.y;
-  }
-  return frame;
+inline FrameInSpace frame_in_space_here(const std::array<BallQuad, 3>& corner, const PrecisePoint& apex) {
+  const BallQuad along = corner[1] - corner[0];
+  return {corner[0], along, ((corner[2] - corner[0]) - BallQuad(apex.x) * along) / BallQuad(apex.y)};
 }
 
-inline std::array<Ball, 3> in_space_here(const FrameInSpace& frame, const PrecisePoint& p) {
-  std::array<Ball, 3> at;
-  for (std::size_t i = 0; i < 3; ++i) at[i] = frame.origin[i] + (p.x * frame.along[i] + p.y * frame.across[i]);
-  return at;
+inline BallQuad in_space_here(const FrameInSpace& frame, const PrecisePoint& p) {
+  return frame.origin + (BallQuad(p.x) * frame.along + BallQuad(p.y) * frame.across);
 }
 
-inline std::array<Ball, 3> between_here(const std::array<Ball, 3>& a, const std::array<Ball, 3>& b, const Ball& t) {
-  std::array<Ball, 3> at;
-  for (std::size_t i = 0; i < 3; ++i) at[i] = a[i] + t * (b[i] - a[i]);
-  return at;
-}
+inline BallQuad between_here(const BallQuad& a, const BallQuad& b, const Ball& t) { return a + BallQuad(t) * (b - a); }
 
 inline PrecisePoint multiple_here(const Ball& factor, const PrecisePoint& p) { return factor * p; }
 
@@ -170,7 +178,6 @@ PreciseWave wave_of_corner(unsigned corner, const Ball& distance, const EdgeFram
   Result name Parameters { return name##_here arguments; }
 #endif
 
-using Space = std::array<Ball, 3>;
 GVD_TWICE(PreciseWave, wave_over_side, (const Disc<DoubleDouble>& image, unsigned side, const Ball& distance, const EdgeFrame<DoubleDouble>& first),
           (image, side, distance, first))
 GVD_TWICE(PrecisePoint, vertex_near, (const PreciseWave& i, const PreciseWave& j, const PreciseWave& k, const NearPoint& start), (i, j, k, start))
@@ -178,9 +185,10 @@ GVD_TWICE(PrecisePoint, ray_vertex_near, (const PreciseWave& parent, const Preci
           (parent, relay, other, start))
 GVD_TWICE(Ball, side_tie_near, (const SideLine<Ball>& side, const PreciseWave& from, const PreciseWave& to, double start, double radius),
           (side, from, to, start, radius))
-GVD_TWICE(FrameInSpace, frame_in_space, (const std::array<Space, 3>& corner, const PrecisePoint& apex), (corner, apex))
-GVD_TWICE(Space, in_space, (const FrameInSpace& frame, const PrecisePoint& p), (frame, p))
-GVD_TWICE(Space, between, (const Space& a, const Space& b, const Ball& t), (a, b, t))
+GVD_TWICE(PrecisePoint, point_of_side, (const SideLine<Ball>& side, const Ball& t), (side, t))
+GVD_TWICE(FrameInSpace, frame_in_space, (const std::array<BallQuad, 3>& corner, const PrecisePoint& apex), (corner, apex))
+GVD_TWICE(BallQuad, in_space, (const FrameInSpace& frame, const PrecisePoint& p), (frame, p))
+GVD_TWICE(BallQuad, between, (const BallQuad& a, const BallQuad& b, const Ball& t), (a, b, t))
 GVD_TWICE(PrecisePoint, multiple, (const Ball& factor, const PrecisePoint& p), (factor, p))
 GVD_TWICE(PrecisePoint, turned_and_moved, (const PrecisePoint& base, const PrecisePoint& turn, const PrecisePoint& p), (base, turn, p))
 

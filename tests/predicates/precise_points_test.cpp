@@ -173,9 +173,9 @@ TEST(PrecisePoints, LiteralsFollowFromTheirDerivation) {
 TEST(PrecisePoints, AreCarriedToSpace) {
   test::Random random(5);
   for (int round = 0; round < 1000; ++round) {
-    std::array<std::array<Ball, 3>, 3> corner;
-    for (auto& p : corner)
-      for (Ball& x : p) x = Ball(random.uniform(-100, 100));
+    const auto coordinate = [&] { return Ball(random.uniform(-100, 100)); };
+    const auto point = [&] { return robust::BallQuad(coordinate(), coordinate(), coordinate(), Ball()); };
+    const std::array<robust::BallQuad, 3> corner{point(), point(), point()};
     // Any apex will do: the corners are where the three points of the frame go.
     const PrecisePoint apex{Ball(random.uniform(-1, 2)), Ball(random.uniform(0.1, 2))};
     const FrameInSpace frame = frame_in_space(corner, apex);
@@ -183,14 +183,14 @@ TEST(PrecisePoints, AreCarriedToSpace) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto at = in_space(frame, points[k]);
       for (std::size_t i = 0; i < 3; ++i) {
-        ASSERT_TRUE(contains(at[i], wide(corner[k][i].mid())));
-        ASSERT_LE(at[i].rad(), 1e-26);
+        ASSERT_TRUE(contains(at.lane(i), wide(corner[k].lane(i).mid())));
+        ASSERT_LE(at.lane(i).rad(), 1e-26);
       }
     }
     const double t = random.uniform();
     const auto at = between(corner[0], corner[1], Ball(t));
     for (std::size_t i = 0; i < 3; ++i)
-      ASSERT_TRUE(contains(at[i], wide(corner[0][i].mid()) + wide(t) * (wide(corner[1][i].mid()) - wide(corner[0][i].mid()))));
+      ASSERT_TRUE(contains(at.lane(i), wide(corner[0].lane(i).mid()) + wide(t) * (wide(corner[1].lane(i).mid()) - wide(corner[0].lane(i).mid()))));
     const PrecisePoint base{Ball(random.uniform(-1, 1)), Ball(random.uniform(-1, 1))}, turn{Ball(random.uniform(-1, 1)), Ball(random.uniform(-1, 1))};
     const PrecisePoint placed = turned_and_moved(base, turn, apex), by_hand{base.x + turn.x * apex.x - turn.y * apex.y, base.y + turn.x * apex.y + turn.y * apex.x};
     ASSERT_TRUE(contains(placed.x, wide(by_hand.x.mid())) || placed.x.mid() == by_hand.x.mid());

@@ -5,6 +5,7 @@
 #include "gvd/predicates/double_wave.hpp"
 #include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/predicates/side_tie.hpp"
+#include "gvd/robust/ball_quad.hpp"
 
 /// The points of a facet's tessellation in double-double, each from a double that is known to be near: one step of Newton's iteration, whose residual is
 /// a ball, and a bound of what the step leaves (docs/error-bounds.md#points-in-double-double). Nothing is decided here: that the point exists, which of
@@ -39,14 +40,17 @@ PrecisePoint ray_vertex_near(const PreciseWave& parent, const PreciseWave& relay
 /// The parameter of the point of a side where two waves tie. Pre: it is there, within `radius` of `start`.
 DoubleDoubleBall side_tie_near(const SideLine<DoubleDoubleBall>& side, const PreciseWave& from, const PreciseWave& to, double start, double radius);
 
-/// A facet's frame in space: p is at origin + p.x along + p.y across.
+/// origin + t direction.
+PrecisePoint point_of_side(const SideLine<DoubleDoubleBall>& side, const DoubleDoubleBall& t);
+
+/// A facet's frame in space: p is at origin + p.x along + p.y across. The three coordinates are in three lanes; the last one means nothing.
 struct FrameInSpace {
-  std::array<DoubleDoubleBall, 3> origin, along, across;
+  robust::BallQuad origin, along, across;
 };
-FrameInSpace frame_in_space(const std::array<std::array<DoubleDoubleBall, 3>, 3>& corner, const PrecisePoint& apex);
-std::array<DoubleDoubleBall, 3> in_space(const FrameInSpace& frame, const PrecisePoint& p);
+FrameInSpace frame_in_space(const std::array<robust::BallQuad, 3>& corner, const PrecisePoint& apex);
+robust::BallQuad in_space(const FrameInSpace& frame, const PrecisePoint& p);
 /// a + t (b - a).
-std::array<DoubleDoubleBall, 3> between(const std::array<DoubleDoubleBall, 3>& a, const std::array<DoubleDoubleBall, 3>& b, const DoubleDoubleBall& t);
+robust::BallQuad between(const robust::BallQuad& a, const robust::BallQuad& b, const DoubleDoubleBall& t);
 
 /// factor p.
 PrecisePoint multiple(const DoubleDoubleBall& factor, const PrecisePoint& p);
