@@ -143,22 +143,24 @@ class EulerCount {
   std::int64_t of_surface = 0;  ///< of the part that is reached
 
  private:
-  /// Adds a cell of the subdivision, whose closure in the regions of these label sets it is.
-  void add(std::span<const LabelSetId> around, std::int64_t sign) {
-    auto& labels = labels_;
-    labels.clear();
-    for (const LabelSetId l : around)
-      if (l != kNone && std::find(labels.begin(), labels.end(), l) == labels.end()) labels.push_back(l);
-    if (labels.empty()) return;
+  /// Adds a cell of the subdivision, whose closure in the regions of these two label sets it is.
+  void add_between(LabelSetId a, LabelSetId b, std::int64_t sign) {
+    if (!is_single(a) || !is_single(b)) return add(std::array{a, b}, sign);
     of_surface += sign;
-    for (const LabelSetId l : labels) of_labels[l] += sign;
-    const auto is_single = [&](LabelSetId l) { return in_.label_sets[l].size() == 1; };
-    if (std::all_of(labels.begin(), labels.end(), is_single)) {  // other sets, other sources
-      for (const LabelSetId l : labels) of_source[in_.label_sets[l].front()] += sign;
-      return;
+    for (const LabelSetId l : {a, b}) {
+      of_labels[l] += sign;
+      of_source[in_.label_sets[l].front()] += sign;
     }
+  }
+  bool is_single(LabelSetId l) const { return in_.label_sets[l].size() == 1; }
+  /// The same for any label sets, no two of them the same.
+  void add(std::span<const LabelSetId> around, std::int64_t sign) {
+    of_surface += sign;
     sources_.clear();
-    for (const LabelSetId l : labels) sources_.insert(sources_.end(), in_.label_sets[l].begin(), in_.label_sets[l].end());
+    for (const LabelSetId l : around) {
+      of_labels[l] += sign;
+      sources_.insert(sources_.end(), in_.label_sets[l].begin(), in_.label_sets[l].end());
+    }
     std::sort(sources_.begin(), sources_.end());
     sources_.erase(std::unique(sources_.begin(), sources_.end()), sources_.end());
     for (const SourceId source : sources_) of_source[source] += sign;
@@ -214,14 +216,13 @@ class EulerCount {
       const Dart& dart = s_.darts[d];
       if (dart.twin != kNone && dart.twin < d) continue;
       const LabelSetId beyond = dart.twin == kNone ? dart.labels : s_.darts[dart.twin].labels;
-      dart.labels == beyond ? add_inside(beyond, -1) : add(std::array{dart.labels, beyond}, -1);
+      dart.labels == beyond ? add_inside(beyond, -1) : add_between(dart.labels, beyond, -1);
     }
   }
 
   void count_vertices() {
-    std::vector<std::pair<std::uint32_t, LabelSetId>> around;  // place, label set beside it
-    around.reserve(s_.darts.size() + s_.places.size());
-    for (const Dart& dart : s_.darts) around.push_back({dart.from, dart.labels});
+    around_.resize(s_.places.size());
+    for (const Dart& dart : s_.darts) note(dart.from, dart.labels);
     for (VertexId v = 0; v < in_.refined.vertex_count(); ++v) {
       if (in_.refined.is_isolated(v)) continue;
       const std::uint32_t place = s_.vertex_place[v];
@@ -230,29 +231,50 @@ class EulerCount {
         continue;
       }
       in_.refined.for_each_outgoing(v, [&](HalfedgeId h) {
-        if (is_plain(Mesh::face(h))) around.push_back({place, in_.face_labels[Mesh::face(h)]});
+        if (is_plain(Mesh::face(h))) note(place, in_.face_labels[Mesh::face(h)]);
       });
     }
-    add_places(around);
+    add_places();
   }
 
-  void add_places(const std::vector<std::pair<std::uint32_t, LabelSetId>>& around) {
-    std::vector<std::uint32_t> start(s_.places.size() + 1, 0);
-    for (const auto& [place, labels] : around) ++start[place + 1];
-    for (std::size_t p = 0; p < s_.places.size(); ++p) start[p + 1] += start[p];
-    std::vector<LabelSetId> sorted(around.size());
-    std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
-    for (const auto& [place, labels] : around) sorted[fill[place]++] = labels;
-    for (std::size_t p = 0; p < s_.places.size(); ++p) {
-      const auto labels = std::span(sorted).subspan(start[p], start[p + 1] - start[p]);
-      const bool one = !labels.empty() && std::all_of(labels.begin(), labels.end(), [&](LabelSetId l) { return l == labels.front(); });
-      one ? add_inside(labels.front(), 1) : add(labels, 1);
+  /// The first two label sets round a place; hardly any has more.
+  struct Around {
+    LabelSetId first = kNone, second = kNone;
+  };
+  void note(std::uint32_t place, LabelSetId labels) {
+    Around& around = around_[place];
+    if (labels == kNone || labels == around.first || labels == around.second) return;
+    if (around.first == kNone)
+      around.first = labels;
+    else if (around.second == kNone)
+      around.second = labels;
+    else
+      further_.push_back({place, labels});
+  }
+
+  void add_places() {
+    std::sort(further_.begin(), further_.end());
+    further_.erase(std::unique(further_.begin(), further_.end()), further_.end());
+    auto next = further_.begin();
+    for (std::uint32_t p = 0; p < around_.size(); ++p) {
+      const auto [first, second] = around_[p];
+      if (next != further_.end() && next->first == p) {
+        labels_ = {first, second};
+        for (; next != further_.end() && next->first == p; ++next) labels_.push_back(next->second);
+        add(labels_, 1);
+      } else if (second != kNone) {
+        add_between(first, second, 1);
+      } else {
+        add_inside(first, 1);
+      }
     }
   }
 
   const DiagramInput& in_;
   const Subdivision& s_;
   std::vector<std::int64_t> inside_;
+  std::vector<Around> around_;                                     // per place
+  std::vector<std::pair<std::uint32_t, LabelSetId>> further_;  // place, another label set there
   std::vector<SourceId> sources_;
   std::vector<LabelSetId> labels_;
 };

@@ -78,24 +78,50 @@ struct FacetSpace {
   std::array<std::array<NT, 3>, 3> corner;
 };
 
+/// A wave as the arcs beside it have it: in the frame of the input face, in double-double.
+struct PlacedWave {
+  std::array<Enclosed, 2> image;
+  Enclosed enclosed_weight;
+  FacetWaves::DD weight;
+  bool is_known = false, is_sharp = false;
+};
+
 /// The facets of one thread in double-double: the last one is kept for the next point or arc.
 class PreciseNumbers {
  public:
   PreciseNumbers(const DiagramInput& in, const Subdivision& s, PreciseWaves& waves) : in_(in), s_(s), waves_(waves) {}
 
   PreciseFacet& facet(std::uint32_t f) {
-    if (last_ != f) facet_.emplace(in_, s_.facets[f]);
+    if (last_ != f) {
+      facet_.emplace(in_, s_.facets[f]);
+      placed_.clear();
+    }
     last_ = f;
     return *facet_;
   }
   const predicates::PreciseWave& wave(std::uint32_t f, std::uint32_t site) { return waves_(f, site); }
+  /// Valid until another facet is asked for.
+  const PlacedWave& placed(std::uint32_t f, std::uint32_t site) {
+    const PreciseFacet& home = facet(f);
+    placed_.resize(s_.facets[f].waves->sites.size());
+    if (!placed_[site].is_known) placed_[site] = place(home, wave(f, site));
+    return placed_[site];
+  }
 
  private:
+  static PlacedWave place(const PreciseFacet& facet, const predicates::PreciseWave& wave) {
+    const robust::BallQuad placed = facet.placed(wave);
+    const FacetWaves::DD x = placed.lane(0), y = placed.lane(1), weight = placed.lane(2);
+    const double size = std::max(std::fabs(x.mid().hi), std::fabs(y.mid().hi));
+    return {{enclosed(x), enclosed(y)}, enclosed(weight), weight, true, is_sharp(x, size) && is_sharp(y, size) && is_sharp(weight, 0)};
+  }
+
   const DiagramInput& in_;
   const Subdivision& s_;
   PreciseWaves& waves_;
   std::uint32_t last_ = kNone;
   std::optional<PreciseFacet> facet_;
+  std::vector<PlacedWave> placed_;  // of that facet, by site
 };
 
 class PointBuilder {
@@ -243,15 +269,16 @@ class ArcBuilder {
  private:
   /// Of an arc inside a facet.
   bool numbers_near(const Dart* const (&beside)[2], Arc& arc, PreciseNumbers& precise) const {
-    const PreciseFacet& facet = precise.facet(beside[0]->facet);
-    std::array<FacetWaves::DD, 2> weight;
     bool sharp = true;
     for (std::size_t i = 0; i < 2; ++i) {
-      const predicates::PreciseWave& wave = precise.wave(beside[i]->facet, beside[i]->site);
-      weight[i] = wave.weight * facet.frame().length;
-      sharp = set_wave(arc, i, facet.placed(wave.image), weight[i]) && sharp;
+      const PlacedWave& wave = precise.placed(beside[i]->facet, beside[i]->site);
+      arc.image[i] = wave.image;
+      arc.weight[i] = wave.enclosed_weight;
+      sharp = sharp && wave.is_sharp;
     }
-    arc.conic = conic(beside, arc, maybe_sign(weight[0] - weight[1]));
+    arc.conic = conic(beside, arc, [&] {
+      return maybe_sign(precise.placed(beside[0]->facet, beside[0]->site).weight - precise.placed(beside[1]->facet, beside[1]->site).weight);
+    });
     return sharp;
   }
 
@@ -274,7 +301,7 @@ class ArcBuilder {
       weight[i] = site.weight * frame_in<NT>(*other.waves, bits).length;
       sharp = set_wave(arc, i, map(image), weight[i]) && sharp;
     }
-    arc.conic = conic(beside, arc, maybe_sign(weight[0] - weight[1]));
+    arc.conic = conic(beside, arc, [&] { return maybe_sign(weight[0] - weight[1]); });
     return sharp;
   }
 
@@ -286,11 +313,15 @@ class ArcBuilder {
     return is_sharp(image.x, size) && is_sharp(image.y, size) && is_sharp(weight, 0);
   }
 
-  Arc::Conic conic(const Dart* const (&beside)[2], const Arc& arc, robust::MaybeSign difference) const {
+  /// `compare_weights()`: the sign of their difference.
+  template <class CompareWeights>
+  Arc::Conic conic(const Dart* const (&beside)[2], const Arc& arc, const CompareWeights& compare_weights) const {
     const Dart& dart = *beside[0];
     const bool inner = dart.arc != kNone;
     if (inner && s_.facets[dart.facet].tessellation->arcs[dart.arc].tangent) return Arc::Conic::ray;
-    if (arc.root[0] == arc.root[1] || difference == robust::Sign::zero || start_together(arc.root)) return Arc::Conic::line;
+    if (arc.root[0] == arc.root[1] || start_together(arc.root)) return Arc::Conic::line;
+    const robust::MaybeSign difference = compare_weights();
+    if (difference == robust::Sign::zero) return Arc::Conic::line;
     if (inner) return Arc::Conic::hyperbola;
     return difference ? Arc::Conic::ray : Arc::Conic::line;  // along an edge: on its line, or mirrored in it
   }

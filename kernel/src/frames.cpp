@@ -9,6 +9,7 @@
 
 #include "gvd/robust/ball.hpp"
 #include "gvd/robust/rational.hpp"
+#include "inserted_positions.hpp"
 
 namespace gvd::kernel {
 namespace {
@@ -71,6 +72,8 @@ std::array<T, 3> Frames::side(FaceId f, int k, int bits) const {
     }
     return result;
   }
+  if constexpr (std::is_same_v<T, DoubleDouble>)
+    if (const auto difference = inserted_->difference(a, b, -scale_)) return *difference;
   const ExactPoint p = mesh_.exact_point(a), q = mesh_.exact_point(b);
   for (std::size_t i = 0; i < 3; ++i) result[i] = robust::from<robust::Ball<T>>(scaled(q[i] - p[i], -scale_), bits).mid();
   return result;
@@ -113,13 +116,14 @@ Frames::Frames(const Mesh& mesh) : mesh_(mesh) {
 void Frames::make_in_double_double(FaceId f) const {
   std::call_once(allocate_, [&] {
     state_ = std::make_unique<std::atomic<std::uint8_t>[]>(mesh_.face_count());
-    double_double_.resize(mesh_.halfedge_count());
+    inserted_ = std::make_shared<const InsertedPositions>(mesh_);
+    double_double_ = std::make_unique_for_overwrite<CacheLine[]>(mesh_.halfedge_count());
     states_.store(state_.get(), std::memory_order_release);
   });
   std::uint8_t state = kEmpty;
   if (state_[f].compare_exchange_strong(state, kBeingMade, std::memory_order_acq_rel)) {
     const auto frames = make<DoubleDouble>(f, 106);
-    for (std::size_t k = 0; k < 3; ++k) double_double_[3 * f + k].frame = frames[k];
+    for (std::size_t k = 0; k < 3; ++k) std::construct_at(&double_double_[3 * f + k].frame, frames[k]);
     state_[f].store(kReady, std::memory_order_release);
   }
   while (state_[f].load(std::memory_order_acquire) != kReady) std::this_thread::yield();

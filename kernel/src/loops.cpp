@@ -53,19 +53,22 @@ class LoopFinder {
            s_.darts[dart.twin].labels == dart.labels;
   }
 
+  /// A region is named by one of its darts: at first each outline of a facet by its own first one.
   void join_over_artificial_edges() {
     const auto count = static_cast<std::uint32_t>(s_.darts.size());
     next_.resize(count);
-    region_.resize(count);
-    std::vector<std::uint32_t> prev(count);
+    region_.assign(count, kNone);
     for (std::uint32_t d = 0; d < count; ++d) {
-      region_[d] = d;
       next_[d] = s_.darts[d].next;
+      for (std::uint32_t x = d; region_[x] == kNone; x = s_.darts[x].next) region_[x] = d;
     }
-    for (std::uint32_t d = 0; d < count; ++d) {
-      prev[next_[d]] = d;
-      region_[root_of(region_, d)] = root_of(region_, next_[d]);
-    }
+    if (in_.refined.face_count() != in_.input.face_count()) remove_artificial_edges();
+  }
+
+  void remove_artificial_edges() {
+    const auto count = static_cast<std::uint32_t>(s_.darts.size());
+    std::vector<std::uint32_t> prev(count);
+    for (std::uint32_t d = 0; d < count; ++d) prev[next_[d]] = d;
     for (std::uint32_t d = 0; d < count; ++d) {
       const std::uint32_t t = s_.darts[d].twin;
       if (!is_removed(d) || t < d) continue;
@@ -109,13 +112,18 @@ class LoopFinder {
     std::vector<std::uint32_t> first_of(s_.darts.size(), kNone);
     for (const Loop& loop : list) first_of[loop.region] = std::min(first_of[loop.region], loops_.darts[loop.begin]);
     using Key = std::tuple<FaceId, std::uint32_t, bool, std::uint32_t>;  // the last one tells any two apart
-    std::vector<std::pair<Key, std::uint32_t>> order;
+    using Keyed = std::pair<Key, std::uint32_t>;
+    std::vector<Keyed> order, others;  // only pieces of split faces are not in order already
     order.reserve(list.size());
     for (std::uint32_t i = 0; i < list.size(); ++i) {
       const Loop& loop = list[i];
-      order.push_back({{loop.face, first_of[loop.region], loop.area < 0, loops_.darts[loop.begin]}, i});
+      const Keyed keyed{{loop.face, first_of[loop.region], loop.area < 0, loops_.darts[loop.begin]}, i};
+      (order.empty() || order.back() < keyed ? order : others).push_back(keyed);
     }
-    std::sort(order.begin(), order.end());
+    std::sort(others.begin(), others.end());
+    const auto middle = static_cast<std::ptrdiff_t>(order.size());
+    order.insert(order.end(), others.begin(), others.end());
+    std::inplace_merge(order.begin(), order.begin() + middle, order.end());
     std::vector<Loop> sorted;
     sorted.reserve(list.size());
     for (const auto& [key, i] : order) sorted.push_back(list[i]);

@@ -23,6 +23,13 @@ PreciseFacet::PreciseFacet(const DiagramInput& in, const Skeleton& facet)
   turn_ = map.turn();
 }
 
+robust::BallQuad PreciseFacet::placed(const predicates::PreciseWave& wave) const {
+  const robust::BallQuad stretched = predicates::multiple(frame_.length, wave);
+  if (whole_) return stretched;
+  const P image = predicates::turned_and_moved(base_, turn_, wave.image);
+  return {image.x, image.y, stretched.lane(2), NT()};
+}
+
 robust::BallQuad PreciseFacet::in_space(const P& p) {
   if (!space_) space_ = predicates::frame_in_space(corner_, frame_.apex);
   return predicates::in_space(*space_, p);

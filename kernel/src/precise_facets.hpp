@@ -23,6 +23,8 @@ class PreciseFacet {
   const predicates::FacetFrame<NT>& frame() const { return frame_; }
   /// In the frame of the input face.
   P placed(const P& p) const { return whole_ ? predicates::multiple(frame_.length, p) : predicates::turned_and_moved(base_, turn_, p); }
+  /// Image and weight of a wave: x, y and the weight in mesh units in the first three lanes.
+  robust::BallQuad placed(const predicates::PreciseWave& wave) const;
   /// Its coordinates in the first three lanes.
   robust::BallQuad in_space(const P& p);
   /// The same for the point of a side with parameter t.

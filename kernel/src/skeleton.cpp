@@ -40,7 +40,7 @@ class Builder {
 
   Skeleton build() {
     collect_spokes();
-    for (std::uint8_t side = 0; side < 3; ++side) collect_side(side);
+    collect_sides();
     for (std::uint32_t n = 0; n < tess_.nodes.size(); ++n) turn_round(n);
     for (auto& side : skeleton_.sides) mark_essential(side);
     check_corners();
@@ -68,20 +68,30 @@ class Builder {
 
   bool is_corner(std::uint32_t node) const { return node == TessPiece::kNoNode || tess_.nodes[node].kind == Node::Kind::corner; }
 
-  void collect_side(std::uint8_t side) {
-    SideView& view = skeleton_.sides[side];
-    std::uint32_t last_end = TessPiece::kNoNode;
-    for (const auto& piece : tess_.outline) {
-      if (piece.side != side || is_empty(piece, side)) continue;
-      if (!view.pieces.empty()) {
-        if (is_corner(piece.from) || piece.from != last_end) not_a_subdivision(skeleton_.face, "a gap on a side");
-        const auto index = static_cast<std::uint32_t>(view.pieces.size());
-        view.events.push_back({piece.from, index - 1, index, false});
-      }
-      view.pieces.push_back({piece.site, labels(piece.site), last_site(piece)});
-      last_end = piece.to;
+  void collect_sides() {
+    std::array<std::size_t, 3> count{};
+    for (const auto& piece : tess_.outline) ++count[piece.side];
+    for (std::size_t side = 0; side < 3; ++side) {
+      skeleton_.sides[side].pieces.reserve(count[side]);
+      skeleton_.sides[side].events.reserve(count[side]);
     }
-    if (view.pieces.empty() || !is_corner(last_end)) not_a_subdivision(skeleton_.face, "a side is not covered");
+    std::array<std::uint32_t, 3> last_end{TessPiece::kNoNode, TessPiece::kNoNode, TessPiece::kNoNode};
+    for (const auto& piece : tess_.outline)
+      if (!is_empty(piece)) last_end[piece.side] = add_piece(piece, last_end[piece.side]);
+    for (std::size_t side = 0; side < 3; ++side)
+      if (skeleton_.sides[side].pieces.empty() || !is_corner(last_end[side])) not_a_subdivision(skeleton_.face, "a side is not covered");
+  }
+
+  /// Where it ends. `last_end`: where the one before ended.
+  std::uint32_t add_piece(const TessPiece& piece, std::uint32_t last_end) {
+    SideView& view = skeleton_.sides[piece.side];
+    if (!view.pieces.empty()) {
+      if (is_corner(piece.from) || piece.from != last_end) not_a_subdivision(skeleton_.face, "a gap on a side");
+      const auto index = static_cast<std::uint32_t>(view.pieces.size());
+      view.events.push_back({piece.from, index - 1, index, false});
+    }
+    view.pieces.push_back({piece.site, labels(piece.site), last_site(piece)});
+    return piece.to;
   }
 
   std::uint32_t last_site(const TessPiece& piece) const {
@@ -89,10 +99,10 @@ class Builder {
   }
 
   /// A region that touches the outline in one point only.
-  bool is_empty(const TessPiece& piece, std::uint8_t side) const {
+  bool is_empty(const TessPiece& piece) const {
     if (is_corner(piece.from) != is_corner(piece.to)) return false;
     if (!is_corner(piece.from)) return piece.from == piece.to;
-    return corner_of(piece.from, side) == corner_of(piece.to, static_cast<std::uint8_t>((side + 1) % 3));
+    return corner_of(piece.from, piece.side) == corner_of(piece.to, static_cast<std::uint8_t>((piece.side + 1) % 3));
   }
   /// The corner a piece begins or ends in; `implied` if no node names it.
   std::uint8_t corner_of(std::uint32_t node, std::uint8_t implied) const {

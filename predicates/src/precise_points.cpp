@@ -155,6 +155,10 @@ inline BallQuad between_here(const BallQuad& a, const BallQuad& b, const Ball& t
 
 inline PrecisePoint multiple_here(const Ball& factor, const PrecisePoint& p) { return factor * p; }
 
+inline BallQuad multiple_here(const Ball& factor, const PreciseWave& wave) {
+  return BallQuad(factor, factor, wave.weight, wave.weight) * BallQuad(wave.image.x, wave.image.y, factor, factor);
+}
+
 inline PrecisePoint turned_and_moved_here(const PrecisePoint& base, const PrecisePoint& turn, const PrecisePoint& p) {
   return {base.x + (p.x * turn.x - p.y * turn.y), base.y + (p.x * turn.y + p.y * turn.x)};
 }
@@ -190,6 +194,7 @@ GVD_TWICE(FrameInSpace, frame_in_space, (const std::array<BallQuad, 3>& corner, 
 GVD_TWICE(BallQuad, in_space, (const FrameInSpace& frame, const PrecisePoint& p), (frame, p))
 GVD_TWICE(BallQuad, between, (const BallQuad& a, const BallQuad& b, const Ball& t), (a, b, t))
 GVD_TWICE(PrecisePoint, multiple, (const Ball& factor, const PrecisePoint& p), (factor, p))
+GVD_TWICE(BallQuad, multiple, (const Ball& factor, const PreciseWave& wave), (factor, wave))
 GVD_TWICE(PrecisePoint, turned_and_moved, (const PrecisePoint& base, const PrecisePoint& turn, const PrecisePoint& p), (base, turn, p))
 
 }  // namespace gvd::predicates

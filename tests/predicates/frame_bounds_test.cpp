@@ -233,7 +233,10 @@ TEST(FrameBounds, FramesAtInsertedVerticesKeepTheirBounds) {
     const Frames frames(mesh);
     if (frames.has_underflow()) continue;
     for (HalfedgeId h = 0; h < mesh.halfedge_count(); ++h) {
-      expect_frame_within(frames(h), frames.in_mpfr(Mesh::face(h), kTruthBits)[h % 3], predicates::kFrameError, 4 * kU);
+      const auto truth = frames.in_mpfr(Mesh::face(h), kTruthBits)[h % 3];
+      const double unit = predicates::unit<DoubleDouble>(0);
+      expect_frame_within(frames(h), truth, predicates::kFrameError, 4 * kU);
+      expect_frame_within(frames.in_double_double(h), truth, 4 * unit, unit);
       if (HasFatalFailure()) FAIL() << "triangle " << i << " half-edge " << h;
     }
   }

@@ -18,6 +18,7 @@
 namespace gvd::kernel {
 
 using predicates::ExactFace;
+class InsertedPositions;
 
 /// The frames of all half-edges of a mesh in every number type. All lengths are in *scaled units*: mesh units times 2^-scale(), chosen so that
 /// the largest coordinate difference lies in [1, 2). Thread-safe; what is costly is made on demand.
@@ -61,11 +62,15 @@ class Frames {
   bool underflow_ = false;
   std::vector<predicates::EdgeFrame<double>> double_;
   struct alignas(64) CacheLine {
-    predicates::EdgeFrame<robust::DoubleDouble> frame;
+    CacheLine() {}  // empty until the frame is made
+    union {
+      predicates::EdgeFrame<robust::DoubleDouble> frame;
+    };
   };
   enum State : std::uint8_t { kEmpty, kBeingMade, kReady };
   void make_in_double_double(FaceId f) const;
-  mutable std::vector<CacheLine> double_double_;
+  mutable std::unique_ptr<CacheLine[]> double_double_;  // per half-edge
+  mutable std::shared_ptr<const InsertedPositions> inserted_;
   mutable std::unique_ptr<std::atomic<std::uint8_t>[]> state_;        // per face
   mutable std::atomic<const std::atomic<std::uint8_t>*> states_{nullptr};  // the same, once they are there
   mutable std::once_flag allocate_;

@@ -54,6 +54,8 @@ robust::BallQuad between(const robust::BallQuad& a, const robust::BallQuad& b, c
 
 /// factor p.
 PrecisePoint multiple(const DoubleDoubleBall& factor, const PrecisePoint& p);
+/// The coordinates of the image and the weight, in the first three lanes, times a factor.
+robust::BallQuad multiple(const DoubleDoubleBall& factor, const PreciseWave& wave);
 /// base + turn p, as complex numbers.
 PrecisePoint turned_and_moved(const PrecisePoint& base, const PrecisePoint& turn, const PrecisePoint& p);
 
