@@ -271,7 +271,7 @@ Outcome identities_hold(Trial& t) {
 }
 
 constexpr std::array<Property, 1> kProperties = {{
-    {"identities_hold", identities_hold, 200, "what identity or algebra calls equal does not differ with 512 bits"},
+    {"identities_hold", identities_hold, 300, "what identity or algebra calls equal does not differ with 512 bits"},
 }};
 
 }  // namespace
