@@ -1,6 +1,7 @@
 #include "face_map.hpp"
 
 #include "gvd/kernel/error.hpp"
+#include "gvd/robust/rational.hpp"
 
 namespace gvd::kernel {
 
@@ -11,15 +12,19 @@ std::array<mpq_class, 3> barycentric_in_face(const Mesh& input, FaceId face, con
     bary[k] = 1;
     return bary;
   }
-  const ExactPoint a = input.exact_point(input.origin(3 * face)), b = input.exact_point(input.origin(3 * face + 1)),
-                   c = input.exact_point(input.origin(3 * face + 2)), p = refined.exact_point(v);
+  const std::array<ExactPoint, 4> exact = {input.exact_point(input.origin(3 * face)), input.exact_point(input.origin(3 * face + 1)),
+                                           input.exact_point(input.origin(3 * face + 2)), refined.exact_point(v)};
+  robust::CommonDenominator common;
+  for (const ExactPoint& q : exact) common.include(q);
+  std::array<std::array<mpz_class, 3>, 3> spoke;  // from corner 0 to the others and to v
+  for (std::size_t s = 0; s < 3; ++s)
+    for (std::size_t i = 0; i < 3; ++i) spoke[s][i] = common.numerator(exact[s + 1][i]) - common.numerator(exact[0][i]);
   for (std::size_t i = 0; i < 3; ++i) {  // drop an axis along which the face does not vanish
-    const std::size_t j = (i + 1) % 3;
-    const mpq_class det = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
-    if (det == 0) continue;
-    const mpq_class b1 = ((p[i] - a[i]) * (c[j] - a[j]) - (p[j] - a[j]) * (c[i] - a[i])) / det;
-    const mpq_class b2 = ((b[i] - a[i]) * (p[j] - a[j]) - (b[j] - a[j]) * (p[i] - a[i])) / det;
-    return {mpq_class(1 - b1 - b2), b1, b2};
+    const auto cross = [&, j = (i + 1) % 3](std::size_t s, std::size_t t) { return mpz_class(spoke[s][i] * spoke[t][j] - spoke[s][j] * spoke[t][i]); };
+    const mpz_class whole = cross(0, 1);
+    if (whole == 0) continue;
+    const mpz_class of_1 = cross(2, 1), of_2 = cross(0, 2);
+    return {robust::ratio(whole - of_1 - of_2, whole), robust::ratio(of_1, whole), robust::ratio(of_2, whole)};
   }
   throw InternalError("a face of area zero");
 }

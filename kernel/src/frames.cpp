@@ -50,7 +50,7 @@ class InsertedPoints {
   std::vector<Point> rest_;
 };
 
-mpq_class scaled(const mpq_class& x, int k) { return x * robust::power_of_two(k); }
+mpq_class scaled(mpq_class x, int k) { return robust::shifted(std::move(x), k); }
 
 }  // namespace
 
@@ -132,11 +132,10 @@ void Frames::make_in_double_double(FaceId f) const {
 std::array<predicates::EdgeFrame<Mpfr>, 3> Frames::in_mpfr(FaceId f, int bits) const { return make<Mpfr>(f, bits + 8); }
 
 ExactFace Frames::make_exact(FaceId f) const {
-  std::array<ExactPoint, 3> side;
-  for (unsigned k = 0; k < 3; ++k) {
-    const ExactPoint p = mesh_.exact_point(mesh_.origin(3 * f + k)), q = mesh_.exact_point(mesh_.target(3 * f + k));
-    for (std::size_t i = 0; i < 3; ++i) side[k][i] = scaled(q[i] - p[i], -scale_);
-  }
+  std::array<ExactPoint, 3> corner, side;
+  for (unsigned k = 0; k < 3; ++k) corner[k] = mesh_.exact_point(mesh_.origin(3 * f + k));
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) side[k][i] = scaled(corner[(k + 1) % 3][i] - corner[k][i], -scale_);
   return predicates::exact_face(side);
 }
 

@@ -2,6 +2,7 @@
 
 #include "fused_multiply_add.hpp"
 #include "gvd/robust/double_quad.hpp"
+#include "gvd/robust/rational.hpp"
 
 namespace gvd::predicates {
 
@@ -54,12 +55,19 @@ Frames face_frames(const Side& ab, const Side& bc, const Side& ca) {
 }
 
 ExactFace exact_face(const std::array<Vector<mpq_class>, 3>& side) {
+  robust::CommonDenominator common;
+  for (const auto& v : side) common.include(v);
+  std::array<Vector<mpz_class>, 3> whole;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) whole[k][i] = common.numerator(side[k][i]);
+  const auto dot = [&](std::size_t j, std::size_t k) { return mpz_class(whole[j][0] * whole[k][0] + whole[j][1] * whole[k][1] + whole[j][2] * whole[k][2]); };
+  const mpz_class square = *common * *common, across = dot(0, 2);
   ExactFace face;
   for (std::size_t k = 0; k < 3; ++k) {
-    face.dot[k] = -dot(side[k], side[(k + 2) % 3]);
-    face.squared[k] = dot(side[k], side[k]);
+    face.dot[k] = robust::ratio(-dot(k, (k + 2) % 3), square);
+    face.squared[k] = robust::ratio(dot(k, k), square);
   }
-  face.radicand = face.squared[0] * face.squared[2] - face.dot[0] * face.dot[0];
+  face.radicand = robust::ratio(dot(0, 0) * dot(2, 2) - across * across, square * square);
   return face;
 }
 

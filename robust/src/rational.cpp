@@ -42,6 +42,12 @@ mpq_class shifted(mpq_class q, long k) {
   return q;
 }
 
+mpq_class ratio(const mpz_class& numerator, const mpz_class& denominator) {
+  mpq_class result(numerator, denominator);
+  result.canonicalize();
+  return result;
+}
+
 bool is_square(const mpq_class& q) {  // numerator and denominator have no common factor
   return is_perfect_square(q.get_num()) && is_perfect_square(q.get_den());
 }

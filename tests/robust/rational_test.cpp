@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <limits>
 #include <set>
@@ -47,6 +48,16 @@ TEST(Rational, SquareRoots) {
     const mpz_class n = random.integer(200);
     EXPECT_FALSE(is_square(mpq_class(n * n + 1))) << "between two neighbouring squares";
   }
+}
+
+TEST(Rational, OverOneDenominator) {
+  const std::array<mpq_class, 4> all = {mpq_class(-5, 6), mpq_class(3, 4), mpq_class(0), mpq_class(7, 10)};
+  CommonDenominator common;
+  common.include(all);
+  EXPECT_EQ(*common, 60);
+  for (const mpq_class& q : all) EXPECT_EQ(ratio(common.numerator(q), *common), q);
+  EXPECT_EQ(ratio(-6, 4).get_num(), -3);
+  EXPECT_EQ(ratio(6, -4).get_den(), 2);
 }
 
 TEST(Rational, SquareClasses) {

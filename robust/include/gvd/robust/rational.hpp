@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "gvd/robust/gmp.hpp"
 
@@ -40,5 +41,22 @@ std::uint64_t square_class_signature(const mpq_class& q);
 
 /// The fixed primes, of which signatures take the first ones.
 const std::array<std::uint64_t, 64>& signature_primes();
+
+/// The least common denominator of some rationals, and what stands above it: with integers no common factor is looked for after each operation.
+class CommonDenominator {
+ public:
+  void include(std::span<const mpq_class> all) {
+    for (const mpq_class& q : all) denominator_ = lcm(denominator_, q.get_den());
+  }
+  /// Pre: q was included.
+  mpz_class numerator(const mpq_class& q) const { return q.get_num() * mpz_class(denominator_ / q.get_den()); }
+  const mpz_class& operator*() const noexcept { return denominator_; }
+
+ private:
+  mpz_class denominator_ = 1;
+};
+
+/// In lowest terms. Pre: the denominator is not zero.
+mpq_class ratio(const mpz_class& numerator, const mpz_class& denominator);
 
 }  // namespace gvd::robust
