@@ -68,16 +68,14 @@ Resolution::~Resolution() = default;
 std::shared_ptr<const predicates::RootUnfolding> Resolution::exact_unfolding(WindowId window) const { return (*exact_)(window); }
 
 void Resolution::resolve(predicates::Decisions& decisions) {
-  std::vector<VertexId> order;
+  std::vector<std::pair<double, VertexId>> order;
   order.reserve(labels_.size());
   for (VertexId v = 0; v < labels_.size(); ++v)
-    if (std::isfinite(field_.distance[v])) order.push_back(v);
-  std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
-    return field_.distance[a] != field_.distance[b] ? field_.distance[a] < field_.distance[b] : a < b;
-  });
+    if (std::isfinite(field_.distance[v])) order.push_back({field_.distance[v], v});
+  std::sort(order.begin(), order.end());
   images_ = std::make_unique<WindowImages>(frames_, field_);
   add_images(windows_of_candidates());
-  for (const VertexId v : order)
+  for (const auto& [distance, v] : order)
     while (labels_[v] == kNone) resolve_vertex(waits(v) ? first_of(cluster_of(v), decisions) : v, decisions);
 }
 

@@ -1,4 +1,5 @@
 #include "fused_multiply_add.hpp"
+#include "gvd/predicates/enclosed_frame.hpp"
 #include "gvd/predicates/strip.hpp"
 
 namespace gvd::predicates {
@@ -28,6 +29,9 @@ template <bool kCone>
 GVD_FMA void unfold_steps_by_fma(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {
   unfold_steps_here<kCone>(at, steps);
 }
+GVD_FMA robust::Ball<DoubleDouble> last_leg_by_fma(const Disc<DoubleDouble>& image, const Frame& frame, double unit) {
+  return last_leg<DoubleDouble>(image, frame, unit);
+}
 #endif
 
 }  // namespace
@@ -38,6 +42,13 @@ Disc<DoubleDouble> cross(const Disc<DoubleDouble>& z, const Frame& side, bool le
   if (has_fma()) return cross_by_fma(z, step);
 #endif
   return cross_here(z, step);
+}
+
+robust::Ball<DoubleDouble> last_leg(const Disc<DoubleDouble>& image, const Frame& frame, double unit) {
+#ifdef GVD_CHOOSES_FMA
+  if (has_fma()) return last_leg_by_fma(image, frame, unit);
+#endif
+  return last_leg<DoubleDouble>(image, frame, unit);
 }
 
 template <bool kCone>

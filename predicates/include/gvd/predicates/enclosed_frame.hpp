@@ -30,6 +30,8 @@ template <class T>
 robust::Ball<T> last_leg(const Disc<T>& image, const EdgeFrame<T>& frame, double unit) {
   return enclosed_length(frame, unit) * sqrt(squared_norm(balls(image) - enclosed_apex(frame, unit)));
 }
+/// The same numbers, by the processor's own fused multiply-add where it has one.
+robust::Ball<robust::DoubleDouble> last_leg(const Disc<robust::DoubleDouble>& image, const EdgeFrame<robust::DoubleDouble>& frame, double unit);
 
 /// A point of the frame of side k of a facet in the frame of side 0, whose apex is w.
 template <class NT>
