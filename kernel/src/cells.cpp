@@ -80,12 +80,9 @@ class PieceMaker {
 
   std::vector<CellPiece::Side> outline(const Loop& loop) const {
     const auto darts = std::span(loops_.darts).subspan(loop.begin, loop.end - loop.begin);
-    const auto is_named = [&](std::uint32_t d) { return name_of(s_.darts[d].from, loop.face) != kNone; };
-    const auto first = static_cast<std::size_t>(std::find_if(darts.begin(), darts.end(), is_named) - darts.begin());
     std::vector<CellPiece::Side> sides;
     sides.reserve(darts.size());
-    for (std::size_t i = 0; i < darts.size(); ++i) {
-      const std::uint32_t d = darts[(first + i) % darts.size()];
+    for (const std::uint32_t d : darts) {
       const std::uint32_t name = name_of(s_.darts[d].from, loop.face);
       if (name == kNone) continue;
       CellPiece::Side side{.from = name};
@@ -188,7 +185,7 @@ class EulerCount {
     std::vector<std::int64_t> discs(s_.facets.size(), 0), arcs(s_.facets.size(), 0), inner(s_.facets.size(), 0);
     for (const Place& place : s_.places)
       if (place.kind == Place::Kind::inside) ++inner[place.facet];
-    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+    for (std::uint32_t d = 0, count = s_.dart_count(); d < count; ++d) {
       const Dart& dart = s_.darts[d];
       if (dart.arc != kNone) ++arcs[dart.facet];
       if (visited[d] != 0) continue;
@@ -212,7 +209,7 @@ class EulerCount {
       if ((twin != kNone && twin < h) || !is_plain(Mesh::face(h))) continue;
       if (twin == kNone || is_plain(Mesh::face(twin))) add_inside(in_.face_labels[Mesh::face(h)], -1);
     }
-    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+    for (std::uint32_t d = 0, count = s_.dart_count(); d < count; ++d) {
       const Dart& dart = s_.darts[d];
       if (dart.twin != kNone && dart.twin < d) continue;
       const LabelSetId beyond = dart.twin == kNone ? dart.labels : s_.darts[dart.twin].labels;

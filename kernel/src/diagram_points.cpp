@@ -83,7 +83,8 @@ struct PlacedWave {
   std::array<Enclosed, 2> image;
   Enclosed enclosed_weight;
   FacetWaves::DD weight;
-  bool is_known = false, is_sharp = false;
+  bool is_sharp = false;
+  std::uint32_t facet = kNone;  ///< whose wave it is
 };
 
 /// The facets of one thread in double-double: the last one is kept for the next point or arc.
@@ -92,28 +93,24 @@ class PreciseNumbers {
   PreciseNumbers(const DiagramInput& in, const Subdivision& s, PreciseWaves& waves) : in_(in), s_(s), waves_(waves) {}
 
   PreciseFacet& facet(std::uint32_t f) {
-    if (last_ != f) {
-      facet_.emplace(in_, s_.facets[f]);
-      placed_.clear();
-    }
+    if (last_ != f) facet_.emplace(in_, s_.facets[f]);
     last_ = f;
     return *facet_;
   }
   const predicates::PreciseWave& wave(std::uint32_t f, std::uint32_t site) { return waves_(f, site); }
   /// Valid until another facet is asked for.
   const PlacedWave& placed(std::uint32_t f, std::uint32_t site) {
-    const PreciseFacet& home = facet(f);
-    placed_.resize(s_.facets[f].waves->sites.size());
-    if (!placed_[site].is_known) placed_[site] = place(home, wave(f, site));
+    if (site >= placed_.size()) placed_.resize(s_.facets[f].waves->sites.size());
+    if (placed_[site].facet != f) place(f, site);
     return placed_[site];
   }
 
  private:
-  static PlacedWave place(const PreciseFacet& facet, const predicates::PreciseWave& wave) {
-    const robust::BallQuad placed = facet.placed(wave);
+  void place(std::uint32_t f, std::uint32_t site) {
+    const robust::BallQuad placed = facet(f).placed(wave(f, site));
     const FacetWaves::DD x = placed.lane(0), y = placed.lane(1), weight = placed.lane(2);
     const double size = std::max(std::fabs(x.mid().hi), std::fabs(y.mid().hi));
-    return {{enclosed(x), enclosed(y)}, enclosed(weight), weight, true, is_sharp(x, size) && is_sharp(y, size) && is_sharp(weight, 0)};
+    placed_[site] = {{enclosed(x), enclosed(y)}, enclosed(weight), weight, is_sharp(x, size) && is_sharp(y, size) && is_sharp(weight, 0), f};
   }
 
   const DiagramInput& in_;
@@ -121,7 +118,7 @@ class PreciseNumbers {
   PreciseWaves& waves_;
   std::uint32_t last_ = kNone;
   std::optional<PreciseFacet> facet_;
-  std::vector<PlacedWave> placed_;  // of that facet, by site
+  std::vector<PlacedWave> placed_;  // by site, of the facets they name
 };
 
 class PointBuilder {

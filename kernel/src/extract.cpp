@@ -99,6 +99,8 @@ class Extraction {
   void make_edges() {
     link_arcs_.arc.assign(s_.links.size(), kNone);
     link_arcs_.reversed.assign(s_.links.size(), 0);
+    d_.arcs.reserve(s_.links.size());
+    first_links_.reserve(s_.links.size());
     for (const Chain& chain : chains_.chains) {
       GvdEdge edge;
       edge.closed = chain.closed;

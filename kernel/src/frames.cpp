@@ -50,6 +50,8 @@ class InsertedPoints {
   std::vector<Point> rest_;
 };
 
+constexpr int kMostPlainScale = 1000;  // 2 to this power and its inverse are normal doubles
+
 mpq_class scaled(mpq_class x, int k) { return robust::shifted(std::move(x), k); }
 
 }  // namespace
@@ -82,6 +84,13 @@ std::array<T, 3> Frames::side(FaceId f, int k, int bits) const {
 template <class T>
 std::array<predicates::EdgeFrame<T>, 3> Frames::make(FaceId f, int bits) const {
   return predicates::face_frames(side<T>(f, 0, bits), side<T>(f, 1, bits), side<T>(f, 2, bits));
+}
+
+std::array<predicates::EdgeFrame<DoubleDouble>, 3> Frames::make_double_double(FaceId f) const {
+  const VertexId a = mesh_.origin(3 * f), b = mesh_.origin(3 * f + 1), c = mesh_.origin(3 * f + 2);
+  const bool are_points = mesh_.is_representable(a) && mesh_.is_representable(b) && mesh_.is_representable(c);
+  if (!are_points || std::abs(scale_) > kMostPlainScale) return make<DoubleDouble>(f, 106);
+  return predicates::face_frames(mesh_.point(a), mesh_.point(b), mesh_.point(c), std::ldexp(1.0, -scale_));
 }
 
 Frames::Frames(const Mesh& mesh) : mesh_(mesh) {
@@ -122,7 +131,7 @@ void Frames::make_in_double_double(FaceId f) const {
   });
   std::uint8_t state = kEmpty;
   if (state_[f].compare_exchange_strong(state, kBeingMade, std::memory_order_acq_rel)) {
-    const auto frames = make<DoubleDouble>(f, 106);
+    const auto frames = make_double_double(f);
     for (std::size_t k = 0; k < 3; ++k) std::construct_at(&double_double_[3 * f + k].frame, frames[k]);
     state_[f].store(kReady, std::memory_order_release);
   }

@@ -55,7 +55,7 @@ class LoopFinder {
 
   /// A region is named by one of its darts: at first each outline of a facet by its own first one.
   void join_over_artificial_edges() {
-    const auto count = static_cast<std::uint32_t>(s_.darts.size());
+    const std::uint32_t count = s_.dart_count();
     next_.resize(count);
     region_.assign(count, kNone);
     for (std::uint32_t d = 0; d < count; ++d) {
@@ -66,7 +66,7 @@ class LoopFinder {
   }
 
   void remove_artificial_edges() {
-    const auto count = static_cast<std::uint32_t>(s_.darts.size());
+    const std::uint32_t count = s_.dart_count();
     std::vector<std::uint32_t> prev(count);
     for (std::uint32_t d = 0; d < count; ++d) prev[next_[d]] = d;
     for (std::uint32_t d = 0; d < count; ++d) {
@@ -85,7 +85,7 @@ class LoopFinder {
     arc_area_.assign(s_.darts.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<std::uint8_t> visited(s_.darts.size(), 0);
     loops_.darts.reserve(s_.darts.size());
-    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+    for (std::uint32_t d = 0, count = s_.dart_count(); d < count; ++d) {
       if (visited[d] != 0 || is_removed(d)) continue;
       const FaceId face = in_.refined.input_face(s_.facets[s_.darts[d].facet].face);
       const auto begin = static_cast<std::uint32_t>(loops_.darts.size());

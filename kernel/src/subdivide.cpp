@@ -329,7 +329,7 @@ class Subdivider {
   /// Darts along the two sides of a joined edge run against one another.
   void pair_twins() {
     std::vector<std::array<std::uint32_t, 2>> range(3 * s_.facets.size(), {0, 0});
-    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+    for (std::uint32_t d = 0, count = s_.dart_count(); d < count; ++d) {
       const Dart& dart = s_.darts[d];
       if (dart.halfedge == kNone) continue;
       auto& r = range[3 * dart.facet + dart.halfedge % 3];
@@ -347,7 +347,7 @@ class Subdivider {
   }
 
   void make_links() {
-    for (std::uint32_t d = 0; d < s_.darts.size(); ++d) {
+    for (std::uint32_t d = 0, count = s_.dart_count(); d < count; ++d) {
       const Dart& dart = s_.darts[d];
       if (dart.twin == kNone || dart.twin < d || s_.darts[dart.twin].labels == dart.labels) continue;
       s_.links.push_back({d, dart.from, s_.to(d), {dart.labels, s_.darts[dart.twin].labels}});

@@ -180,6 +180,7 @@ struct Subdivision {
   std::vector<LinkEnd> ends;
   std::vector<std::unique_ptr<FacetTessellation>> completed;  ///< of facets for which their borders alone did not do
 
+  std::uint32_t dart_count() const { return static_cast<std::uint32_t>(darts.size()); }
   std::uint32_t to(std::uint32_t dart) const { return darts[darts[dart].next].from; }
   std::span<const LinkEnd> ends_at(std::uint32_t place) const {
     return {ends.data() + end_start[place], ends.data() + end_start[place + 1]};

@@ -8,31 +8,41 @@ namespace gvd::predicates {
 
 using robust::DoubleDouble;
 using robust::DoubleDoubleQuad;
+using robust::DoubleQuad;
 
 namespace {
 
 using Side = Vector<DoubleDouble>;
 using Frames = std::array<EdgeFrame<DoubleDouble>, 3>;
+/// The sides ab, bc and ca of a face in three lanes, coordinate by coordinate; the last lane means nothing.
+using Sides = std::array<DoubleDoubleQuad, 3>;
 
-inline DoubleDoubleQuad in_lanes(const Side& side) { return robust::quad(side[0], side[1], side[2], DoubleDouble()); }
+GVD_QUAD Sides in_lanes(const Side& ab, const Side& bc, const Side& ca) {
+  const auto coordinate = [&](std::size_t i) { return robust::quad(ab[i], bc[i], ca[i], DoubleDouble()); };
+  return {coordinate(0), coordinate(1), coordinate(2)};
+}
+GVD_QUAD Sides in_lanes(const Vector<double>& a, const Vector<double>& b, const Vector<double>& c, double factor) {
+  const auto coordinate = [&](std::size_t i) {
+    const DoubleDoubleQuad d = robust::two_sum(DoubleQuad{b[i], c[i], a[i], 0}, -DoubleQuad{a[i], b[i], c[i], 0});
+    return DoubleDoubleQuad{d.hi * robust::quad(factor), d.lo * robust::quad(factor)};
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
+}
 
-inline DoubleDoubleQuad cross_in_lanes(const Side& p, const Side& q) {
-  const DoubleDoubleQuad a = in_lanes(p), b = in_lanes(q);
+GVD_QUAD DoubleDoubleQuad cross_product(const Sides& side, std::size_t p, std::size_t q) {
+  const auto coordinates = [&](std::size_t k) { return robust::quad(side[0].lane(k), side[1].lane(k), side[2].lane(k), DoubleDouble()); };
+  const DoubleDoubleQuad a = coordinates(p), b = coordinates(q);
   return robust::lanes<1, 2, 0, 3>(a) * robust::lanes<2, 0, 1, 3>(b) - robust::lanes<2, 0, 1, 3>(a) * robust::lanes<1, 2, 0, 3>(b);
 }
 
-/// The formula of the template, the three sides in three lanes; the last lane means nothing.
-inline Frames face_frames_here(const Side& ab, const Side& bc, const Side& ca) {
-  std::array<DoubleDoubleQuad, 3> side, before;
-  for (std::size_t i = 0; i < 3; ++i) {
-    side[i] = robust::quad(ab[i], bc[i], ca[i], DoubleDouble());
-    before[i] = robust::lanes<2, 0, 1, 3>(side[i]);
-  }
+/// The formula of the template, for three sides at once.
+GVD_QUAD Frames face_frames_here(const Sides& side) {
+  const Sides before{robust::lanes<2, 0, 1, 3>(side[0]), robust::lanes<2, 0, 1, 3>(side[1]), robust::lanes<2, 0, 1, 3>(side[2])};
   const DoubleDoubleQuad at_corner = -(side[0] * before[0] + side[1] * before[1] + side[2] * before[2]);
   const DoubleDoubleQuad squared = side[0] * side[0] + side[1] * side[1] + side[2] * side[2];
   const DoubleDouble ll_ab = squared.lane(0), ll_bc = squared.lane(1), ll_ca = squared.lane(2);
-  const auto normal = !(ll_ab < ll_bc) && !(ll_ab < ll_ca) ? cross_in_lanes(bc, ca) : !(ll_bc < ll_ca) ? cross_in_lanes(ca, ab) : cross_in_lanes(ab, bc);
-  const DoubleDoubleQuad squares = normal * normal;
+  const std::size_t longest = !(ll_ab < ll_bc) && !(ll_ab < ll_ca) ? 0 : !(ll_bc < ll_ca) ? 1 : 2;
+  const DoubleDoubleQuad normal = cross_product(side, (longest + 1) % 3, (longest + 2) % 3), squares = normal * normal;
   const DoubleDouble area2 = sqrt(squares.lane(0) + squares.lane(1) + squares.lane(2));
   const DoubleDoubleQuad u = at_corner / squared, v = robust::lanes<1, 2, 0, 3>(at_corner) / squared;
   const DoubleDoubleQuad y = robust::quad(area2, area2, area2, area2) / squared, length = sqrt(squared);
@@ -42,7 +52,10 @@ inline Frames face_frames_here(const Side& ab, const Side& bc, const Side& ca) {
 }
 
 #ifdef GVD_CHOOSES_FMA
-GVD_FMA Frames face_frames_by_fma(const Side& ab, const Side& bc, const Side& ca) { return face_frames_here(ab, bc, ca); }
+GVD_FMA Frames face_frames_by_fma(const Side& ab, const Side& bc, const Side& ca) { return face_frames_here(in_lanes(ab, bc, ca)); }
+GVD_FMA Frames face_frames_by_fma(const Vector<double>& a, const Vector<double>& b, const Vector<double>& c, double factor) {
+  return face_frames_here(in_lanes(a, b, c, factor));
+}
 #endif
 
 }  // namespace
@@ -51,7 +64,14 @@ Frames face_frames(const Side& ab, const Side& bc, const Side& ca) {
 #ifdef GVD_CHOOSES_FMA
   if (has_fma()) return face_frames_by_fma(ab, bc, ca);
 #endif
-  return face_frames<DoubleDouble>(ab, bc, ca);
+  return face_frames_here(in_lanes(ab, bc, ca));
+}
+
+Frames face_frames(const Vector<double>& a, const Vector<double>& b, const Vector<double>& c, double factor) {
+#ifdef GVD_CHOOSES_FMA
+  if (has_fma()) return face_frames_by_fma(a, b, c, factor);
+#endif
+  return face_frames_here(in_lanes(a, b, c, factor));
 }
 
 ExactFace exact_face(const std::array<Vector<mpq_class>, 3>& side) {

@@ -56,6 +56,7 @@ class Frames {
   std::array<predicates::EdgeFrame<T>, 3> make(FaceId f, int bits) const;
   template <class T>
   std::array<T, 3> side(FaceId f, int k, int bits) const;
+  std::array<predicates::EdgeFrame<robust::DoubleDouble>, 3> make_double_double(FaceId f) const;
 
   const Mesh& mesh_;
   int scale_ = 0;

@@ -43,6 +43,8 @@ std::array<EdgeFrame<T>, 3> face_frames(const Vector<T>& ab, const Vector<T>& bc
 /// The same numbers, by the processor's own fused multiply-add where it has one.
 std::array<EdgeFrame<robust::DoubleDouble>, 3> face_frames(const Vector<robust::DoubleDouble>& ab, const Vector<robust::DoubleDouble>& bc,
                                                            const Vector<robust::DoubleDouble>& ca);
+/// The same from the corners: the sides are their differences, exactly, times `factor`, a power of two.
+std::array<EdgeFrame<robust::DoubleDouble>, 3> face_frames(const Vector<double>& a, const Vector<double>& b, const Vector<double>& c, double factor);
 
 /// A face in exact arithmetic: dot products at the corners, squared sides, and N (four times the squared area).
 struct ExactFace {
