@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <forward_list>
 #include <vector>
 
 #include "contenders.hpp"
@@ -34,28 +36,42 @@ class BorderOutline {
  private:
   static constexpr std::uint32_t kNoWave = 0xffffffffu;
   static constexpr std::uint32_t kMostParts = 64;
-  /// A part of the present side at whose ends the nearest waves are all of one known label set.
+  /// A point of the present side, with what all waves are there.
+  struct Spot {
+    double t = 0;
+    const FacetFilter::Reading* waves = nullptr;
+  };
+  /// A part of the present side at whose ends the nearest waves are all of one known label set. The spots are its ends, or a little beyond.
   struct Part {
     double begin, end;
     LabelSetId at_begin, at_end;
+    Spot first, last;
     /// A pair that has its zero at an end of the part: so `nearer` is that all along it.
     std::uint32_t nearer = kNoWave, farther = kNoWave;
   };
+  /// A wave of the label set and the stretch of the side where all are compared with it.
+  struct Guard {
+    std::uint32_t wave;
+    Spot first, last;
+  };
 
   bool find_at_corner(std::size_t c);
+  Spot spot(double t) { return {t, &readings_.emplace_front(filter_.reading(filter_.side(side_).at(t)))}; }
   bool solve(const Part& part, int halvings);
   bool halve(const Part& part, int halvings);
   bool is_uniform(const Part& part);
+  std::uint32_t choose_guard(const Part& part, const Spot& first) const;
+  bool guards(const Guard& guard, const Part& part);
   bool cross(const Part& part, int halvings);
-  bool is_clear(std::uint32_t from, std::uint32_t to, const Place& at);
+  bool is_clear(std::uint32_t from, std::uint32_t to, const Place& at, const Spot& middle);
   bool is_farther(std::uint32_t guard, std::uint32_t other, double begin, double end);
   bool keep_off(const Part& part, std::uint32_t other, double begin, double end, int halvings);
-  bool sees(std::uint32_t wave, double begin, double end) const { return filter_[wave].seen[side_].contains(begin, end); }
-  bool misses(std::uint32_t wave, double begin, double end) const {
-    return end < filter_[wave].stretch[side_].low || filter_[wave].stretch[side_].high < begin;
-  }
-  std::uint32_t nearest(LabelSetId labels, double t) const;
-  LabelSetId only_label_at(double t);
+  bool sees(std::uint32_t wave, double begin, double end) const { return filter_.cones().seen(wave, side_).contains(begin, end); }
+  bool misses(std::uint32_t wave, double begin, double end) const { return filter_.cones().stretch(wave, side_).misses(begin, end); }
+  /// What the error of a point of the side, or of one of its ends, adds to a difference of distances.
+  double point_error() const { return 2 * std::max(filter_.side(side_).error, filter_.side((side_ + 1) % 3).error); }
+  std::uint32_t nearest(LabelSetId labels, const Spot& spot) const;
+  LabelSetId only_label_at(const Spot& spot);
 
   const FacetWaves& waves_;
   const Contenders& contenders_;
@@ -64,6 +80,8 @@ class BorderOutline {
   std::pmr::vector<LabelSetId> labels_;  ///< per contender
   std::array<std::uint32_t, 3> at_corner_{kNoWave, kNoWave, kNoWave};
   std::pmr::vector<Crossing> crossings_;
+  std::pmr::forward_list<FacetFilter::Reading> readings_;  ///< of spots
+  predicates::WaveRow::Marks marks_;
   std::size_t side_ = 0;
   std::uint32_t decisions_ = 0, parts_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace gvd::kernel {
 
@@ -34,7 +35,6 @@ std::optional<FacetTessellation> BorderTracer::run() {
   result_.outline.reserve(kUsual);
   starts_.reserve(2 * kUsual);
   known_.reserve(kUsual);
-  thirds_.reserve(contenders_.size());
   add_outline();
   all_.resize(contenders_.size());
   std::iota(all_.begin(), all_.end(), 0u);
@@ -77,12 +77,11 @@ std::uint32_t BorderTracer::add_crossing(const BorderOutline::Crossing& crossing
 
 /// All waves but the two, and but those of which the vertex with them is known.
 void BorderTracer::find_thirds(const Start& arc) {
-  thirds_.clear();
-  for (std::uint32_t other = 0; other < contenders_.size(); ++other)
-    if (other != arc.left && other != arc.right) thirds_.push_back({other});
+  thirds_.assign(contenders_.size(), {});
+  thirds_[arc.left].is_candidate = thirds_[arc.right].is_candidate = false;
   for (const auto& ring : known_)
     for (std::size_t n = 0; n < 3; ++n)
-      if (ring[n] == arc.left && ring[(n + 1) % 3] == arc.right) std::erase_if(thirds_, [&](const Third& third) { return third.wave == ring[(n + 2) % 3]; });
+      if (ring[n] == arc.left && ring[(n + 1) % 3] == arc.right) thirds_[ring[(n + 2) % 3]].is_candidate = false;
 }
 
 /// Adds the arc that begins there, if the place where it ends is certain. False if not.
@@ -96,11 +95,12 @@ bool BorderTracer::follow(std::size_t start) {
   const Start arc = starts_[start];
   find_thirds(arc);
   if (!end) {
-    auto vertex = first_vertex(arc);
+    const auto vertex = first_vertex(arc);
     if (!vertex) return false;
-    end = add_vertex(std::move(*vertex), arc.left, arc.right);
+    end = add_vertex(*vertex, arc.left, arc.right);
   } else {
-    exclude_beside(arc, result_.nodes[starts_[*end].node]);
+    const Node& node = result_.nodes[starts_[*end].node];
+    exclude_beside(arc, middle(node), node.x.rad() + node.y.rad());
   }
   if (starts_[*end].followed || !are_excluded(arc)) return false;
   starts_[start].followed = starts_[*end].followed = true;
@@ -110,76 +110,97 @@ bool BorderTracer::follow(std::size_t start) {
 
 /// The first vertex found, in the order in which they seem to come. What takes no part in the piece up to there is not nearer in its end either.
 std::optional<BorderTracer::Vertex> BorderTracer::first_vertex(const Start& arc) {
-  look_ahead(arc);
-  const auto is_before = [](const Third& a, const Third& b) { return a.ahead < b.ahead; };
-  for (std::size_t asked = 0; asked < thirds_.size(); ++asked) {
-    Third& next = *std::min_element(thirds_.begin(), thirds_.end(), is_before);
-    next.ahead = std::numeric_limits<double>::infinity();
-    auto found = vertices_.find_in_doubles(arc.left, arc.right, next.wave, {});
+  const Point p = middle(result_.nodes[arc.node]);
+  const Point along = look_ahead(arc, p);
+  for (std::uint32_t next = next_ahead(p, along); next != kNoWave; next = next_ahead(p, along)) {
+    thirds_[next].ahead = std::numeric_limits<double>::infinity();
+    const auto found = vertices_.find_in_doubles(arc.left, arc.right, next, {});
     if (!found) continue;
-    next.has_no_vertex = true;
+    thirds_[next].has_no_vertex = true;
     if (!found->exists) continue;
-    exclude_beside(arc, found->node);
-    const std::optional<bool> beaten = is_beaten(*found);
+    exclude_beside(arc, found->at.p, 2 * found->at.radius);
+    const std::optional<bool> beaten = is_beaten(*found, next);
     if (beaten == false) return found;
-    next.has_no_vertex = beaten.has_value();
+    thirds_[next].has_no_vertex = beaten.has_value();
   }
   return std::nullopt;
 }
 
-std::optional<bool> BorderTracer::is_beaten(const Vertex& vertex) {
+std::optional<bool> BorderTracer::is_beaten(const Vertex& vertex, std::uint32_t third) {
   std::optional<bool> beaten = false;
-  for (const Third& third : thirds_) {
-    if (third.is_off || std::find(vertex.waves.begin(), vertex.waves.end(), third.wave) != vertex.waves.end()) continue;
-    const std::optional<bool> nearer = vertices_.is_beaten(vertex, third.wave);
+  for (std::uint32_t other = 0; other < thirds_.size(); ++other) {
+    if (!thirds_[other].is_candidate || thirds_[other].is_off || other == third) continue;
+    const std::optional<bool> nearer = vertices_.is_beaten(vertex, other);
     if (nearer == true) return true;
     if (!nearer) beaten = std::nullopt;
   }
   return beaten;
 }
 
-/// Finds out who takes no part in the piece of the arc up to a point.
-void BorderTracer::exclude_beside(const Start& arc, const Node& end) {
+/// Finds out who takes no part in the piece of the arc up to a point, that is known up to `radius`.
+void BorderTracer::exclude_beside(const Start& arc, const Point& end, double radius) {
   const Node& start = result_.nodes[arc.node];
-  const double radius = std::max(start.x.rad() + start.y.rad(), end.x.rad() + end.y.rad());
-  const auto piece = BisectorPiece::between(filter_[arc.left].wave, filter_[arc.right].wave, middle(start), middle(end), radius);
-  for (Third& third : thirds_) third.is_off = piece && is_off(*piece, third.wave);
+  const auto piece = BisectorPiece::between(filter_.wave(arc.left), filter_.wave(arc.right), middle(start), end, std::max(start.x.rad() + start.y.rad(), radius));
+  if (piece) {
+    filter_.row().read(piece->middle, reading_);
+    filter_.row().mark_farther(*piece, reading_, arc.left, off_);
+    filter_.cones().mark_blind(*piece, off_);
+  }
+  for (std::uint32_t other = 0; other < thirds_.size(); ++other) thirds_[other].is_off = piece && off_[other];
 }
 
 /// Whether no other wave ends the arc before the end found.
 bool BorderTracer::are_excluded(const Start& arc) {
-  for (const Third& third : thirds_) {
-    if (third.is_off) ladder_.count(Predicate::conflict, robust::Stage::filter);
+  std::uint32_t off = 0;
+  for (std::uint32_t other = 0; other < thirds_.size(); ++other) {
+    const Third& third = thirds_[other];
+    if (!third.is_candidate) continue;
+    off += third.is_off ? 1 : 0;
     if (third.is_off || third.has_no_vertex) continue;
-    const auto found = vertices_.find_in_doubles(arc.left, arc.right, third.wave, all_);
+    const auto found = vertices_.find_in_doubles(arc.left, arc.right, other, all_);
     if (!found || found->exists) return false;
   }
+  ladder_.count(Predicate::conflict, robust::Stage::filter, off);
   return true;
 }
 
-/// Whether a wave certainly has no part in the piece: it is farther all along, or does not see it.
-bool BorderTracer::is_off(const BisectorPiece& piece, std::uint32_t wave) const {
-  const auto& other = filter_[wave];
-  return piece.is_nearer_than(other.wave) || (other.has_cone && (piece.is_right_of(other.ray[0]) || piece.is_right_of(other.ray[1])));
-}
-
-/// How far ahead each wave seems to tie with the two, along the tangent of the arc; only an order of asking.
-void BorderTracer::look_ahead(const Start& arc) {
-  const Point p = middle(result_.nodes[arc.node]);
-  const auto& left = filter_[arc.left].wave;
-  const Point of_left = gradient(left, p), of_right = gradient(filter_[arc.right].wave, p), along{of_right.y - of_left.y, of_left.x - of_right.x};
-  const double at_p = distance(left, p), rise = dot(of_left, along);
-  for (Third& third : thirds_) {
-    if (contenders_.related(arc.left, third.wave) || contenders_.related(arc.right, third.wave)) {
-      third.ahead = ray_ahead(arc, third.wave, p, along);
+/// How far ahead each wave seems to tie with the two, along the tangent of the arc, which is returned; only an order of asking.
+BorderTracer::Point BorderTracer::look_ahead(const Start& arc, const Point& p) {
+  filter_.row().read(p, reading_);
+  const Point of_left = reading_.gradient(arc.left), of_right = reading_.gradient(arc.right), along{of_right.y - of_left.y, of_left.x - of_right.x};
+  const double at_p = reading_.at(arc.left), rise = dot(of_left, along);
+  for (std::uint32_t other = 0; other < thirds_.size(); ++other) {
+    Third& third = thirds_[other];
+    if (!third.is_candidate) {
+      third.ahead = std::numeric_limits<double>::infinity();
       continue;
     }
-    const auto& other = filter_[third.wave];
-    const double lead = distance(other.wave, p) - at_p, slope = dot(gradient(other.wave, p), along) - rise, ahead = -lead / slope;
-    const Point there{p.x + ahead * along.x, p.y + ahead * along.y};
-    const bool seen = !other.has_cone || (is_left(other.ray[0], there) && is_left(other.ray[1], there));
-    third.ahead = !(slope < 0) ? kFar : seen ? ahead : kFar + ahead;
+    third.is_looked_for = contenders_.related(arc.left, other) || contenders_.related(arc.right, other);
+    if (third.is_looked_for) {
+      third.ahead = ray_ahead(arc, other, p, along);
+      continue;
+    }
+    const double slope = dot(reading_.gradient(other), along) - rise;
+    const double ahead = (at_p - reading_.at(other)) / slope;
+    third.ahead = slope < 0 && ahead < kFar ? ahead : kFar;
   }
+  return along;
+}
+
+/// The next wave to be asked; kNoWave after the last. Those that seem not to see the place come later.
+std::uint32_t BorderTracer::next_ahead(const Point& p, const Point& along) {
+  for (;;) {
+    const auto next = std::min_element(thirds_.begin(), thirds_.end(), [](const Third& a, const Third& b) { return a.ahead < b.ahead; });
+    if (!(next->ahead < std::numeric_limits<double>::infinity())) return kNoWave;
+    const auto wave = static_cast<std::uint32_t>(next - thirds_.begin());
+    if (std::exchange(next->is_looked_for, true) || next->ahead >= kFar || sees(wave, {p.x + next->ahead * along.x, p.y + next->ahead * along.y})) return wave;
+    next->ahead += kFar;
+  }
+}
+
+/// As far as rounded numbers tell.
+bool BorderTracer::sees(std::uint32_t wave, const Point& p) const {
+  return !filter_.has_cone(wave) || (is_left(filter_.cones().ray(wave, 0), p) && is_left(filter_.cones().ray(wave, 1), p));
 }
 
 /// The same for one that ties with them on a boundary ray.
@@ -187,7 +208,8 @@ double BorderTracer::ray_ahead(const Start& arc, std::uint32_t other, const Poin
   for (const std::uint32_t own : {arc.left, arc.right}) {
     const int leaves = contenders_.tangent_end(own, other), arrives = contenders_.tangent_end(other, own);
     if (leaves == Contenders::kNotTangent && arrives == Contenders::kNotTangent) continue;
-    const auto& ray = leaves != Contenders::kNotTangent ? filter_[own].ray[static_cast<std::size_t>(leaves)] : filter_[other].ray[static_cast<std::size_t>(arrives)];
+    const bool is_own = leaves != Contenders::kNotTangent;
+    const auto ray = filter_.cones().ray(is_own ? own : other, static_cast<std::size_t>(is_own ? leaves : arrives));
     const double ahead = -cross(ray.along, {p.x - ray.from.x, p.y - ray.from.y}) / cross(ray.along, along);
     return ahead > 0 ? ahead : kFar;
   }
@@ -195,11 +217,11 @@ double BorderTracer::ray_ahead(const Start& arc, std::uint32_t other, const Poin
 }
 
 /// The border that leaves the new vertex against the one that arrives with `left` and `right`.
-std::size_t BorderTracer::add_vertex(Vertex&& vertex, std::uint32_t left, std::uint32_t right) {
-  const auto& ring = vertex.waves;
+std::size_t BorderTracer::add_vertex(const Vertex& vertex, std::uint32_t left, std::uint32_t right) {
+  const auto& ring = vertex.waves();
   known_.push_back(ring);
   const auto node = static_cast<std::uint32_t>(result_.nodes.size());
-  result_.nodes.push_back(std::move(vertex.node));
+  result_.nodes.push_back(vertices_.node(vertex));
   std::size_t back = 0;
   for (std::size_t n = 0; n < 3; ++n) {
     const std::uint32_t a = ring[n], b = ring[(n + 1) % 3];

@@ -1,6 +1,7 @@
 #include "contenders.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gvd/kernel/unfolding.hpp"
 
@@ -11,9 +12,10 @@ using predicates::Predicate;
 using predicates::operator-;
 using robust::Sign;
 
-/// Whether the points are certainly different, as far as doubles can tell.
+/// Whether the points are certainly different, as far as doubles can tell. The difference of the midpoints is rounded once, what pays for that thrice.
 bool separated(const predicates::PlanePoint<FacetLadder::F>& a, const predicates::PlanePoint<FacetLadder::F>& b) {
-  return maybe_sign(a.x - b.x).value_or(Sign::zero) != Sign::zero || maybe_sign(a.y - b.y).value_or(Sign::zero) != Sign::zero;
+  const auto differ = [](const FacetLadder::F& x, const FacetLadder::F& y) { return std::fabs(x.mid() - y.mid()) > (x.rad() + y.rad()) * (1 + 0x1p-48); };
+  return differ(a.x, b.x) || differ(a.y, b.y);
 }
 
 /// The turn from the right boundary ray of one to the left one of the other; empty if these numbers cannot tell.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contenders.hpp"
-#include "gvd/predicates/bisector_piece.hpp"
+#include "gvd/predicates/cone_row.hpp"
 
 namespace gvd::kernel {
 
@@ -14,25 +14,8 @@ class FacetFilter {
  public:
   using Bounded = predicates::Bounded;
   using Point = predicates::DoublePoint;
+  using Reading = predicates::WaveRow::Reading;
 
-  /// The line of a boundary ray of a cone: the cone is on its left.
-  struct Ray : predicates::DoubleLine {
-    std::array<Bounded, 3> at_corner;  ///< on which side the corners are
-  };
-  /// A part of a side.
-  struct Stretch {
-    double low = 0, high = 1;
-    bool contains(double from, double to) const { return low <= from && to <= high; }
-  };
-  struct Wave {
-    predicates::DoubleWave wave;
-    std::array<double, 3> at_corner{};        ///< distance
-    std::array<double, 3> reach{};            ///< the same without the weight
-    bool has_cone = false;
-    std::array<Ray, 2> ray{};
-    std::array<Stretch, 3> stretch{};  ///< per side: where the wave may be seen, certainly nowhere else
-    std::array<Stretch, 3> seen{};     ///< per side: where it is certainly seen
-  };
   /// A directed side; `error` bounds that of each of its points.
   struct Side {
     Point origin{0, 0}, direction{0, 0};
@@ -41,10 +24,22 @@ class FacetFilter {
   };
 
   FacetFilter(const Contenders& contenders, FacetLadder& ladder);
+  FacetFilter(const FacetFilter&) = delete;
+  FacetFilter& operator=(const FacetFilter&) = delete;
 
-  const Wave& operator[](std::size_t i) const { return waves_[i]; }
+  const predicates::DoubleWave& wave(std::size_t i) const { return waves_[i]; }
+  bool has_cone(std::size_t i) const { return contenders_[i].has_cone; }
   const Side& side(std::size_t k) const { return sides_[k]; }
   std::size_t size() const { return waves_.size(); }
+  /// All waves at a point, and at a corner.
+  Reading reading(const Point& p) const {
+    Reading reading(row_, room_);
+    row_.read(p, reading);
+    return reading;
+  }
+  const predicates::WaveRow& row() const { return row_; }
+  const predicates::ConeRow& cones() const { return cones_; }
+  const Reading& at_corner(std::size_t c) const { return corner_[c]; }
 
   /// d_b - d_a at the point of side k with parameter t in [0, 1].
   Bounded lead(std::size_t k, std::uint32_t a, std::uint32_t b, double t) const;
@@ -57,11 +52,16 @@ class FacetFilter {
   Bounded cone_side(std::uint32_t i, std::size_t end, const Point& p, double error) const;
 
  private:
-  static void cut_stretches(const Ray& ray, const Contender& contender, Wave& wave);
-  Ray make_ray(const FacetNumbers<FacetWaves::F>& numbers, const Contender& wave, std::size_t end) const;
+  predicates::DoubleLine make_ray(const Contender& wave, std::size_t end) const;
 
-  std::pmr::vector<Wave> waves_;
+  const Contenders& contenders_;
+  const FacetNumbers<FacetWaves::F>& numbers_;
+  std::pmr::memory_resource* room_;
+  std::pmr::vector<predicates::DoubleWave> waves_;
+  predicates::WaveRow row_;
   std::array<Side, 3> sides_;
+  std::pmr::vector<Reading> corner_;
+  predicates::ConeRow cones_;
 };
 
 }  // namespace gvd::kernel

@@ -112,7 +112,7 @@ class FacetLadder {
     return visit(numbers.exact, robust::Stage::algebra);
   }
 
-  std::array<std::byte, 1 << 14> first_room_;
+  std::array<std::byte, 1 << 15> first_room_;
   std::pmr::monotonic_buffer_resource room_{first_room_.data(), first_room_.size()};
   FacetWaves& waves_;
   predicates::Decisions& decisions_;

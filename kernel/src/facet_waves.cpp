@@ -55,12 +55,19 @@ FieldWaves::FieldWaves(const Resolution& resolution, const std::vector<VertexKin
   }
 }
 
-/// Hardly any of them turns out to be nowhere nearest, and they are kept until the diagram is made.
+/// Hardly any of them turns out to be nowhere nearest, and they are kept until the diagram is made. What is wanted of them next is fetched meanwhile.
 std::size_t FieldWaves::most_sites() const {
   std::size_t count = 0;
   for (HalfedgeId h = 3 * face; h < 3 * face + 3; ++h) {
     count += field_.corner_sees_face[h] != 0 ? 1 : 0;
-    for (WindowId w = field_.first_window[h]; w != kNone; w = field_.windows[w].next) count += field_.windows[w].dominated() ? 0 : 1;
+    for (WindowId w = field_.first_window[h]; w != kNone; w = field_.windows[w].next) {
+      if (field_.windows[w].dominated()) continue;
+      ++count;
+      if (const auto* unfolded = unfolded_ == nullptr ? nullptr : unfolded_->find(w)) {
+        const auto* const bytes = reinterpret_cast<const std::byte*>(unfolded);
+        for (std::size_t line = 0; line < sizeof *unfolded; line += 64) __builtin_prefetch(bytes + line);
+      }
+    }
   }
   return count;
 }

@@ -120,7 +120,7 @@ std::optional<std::vector<OutlineWalk::Event>> OutlineWalk::next_events(std::siz
   const double low = previous && previous->filtered ? previous->filtered->t.lower() : 0;
   double high = 1;
   for (std::uint32_t to = 0; to < contenders_.size(); ++to) {
-    const FacetFilter::Stretch& stretch = filter_[to].stretch[side];
+    const auto stretch = filter_.cones().stretch(to, side);
     if (to == from || stretch.high < low || stretch.low > high) continue;
     touched_ = touched_ || may_touch(side, from, to);
     std::optional<Event> event = candidate(side, from, to);

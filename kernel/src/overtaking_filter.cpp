@@ -60,7 +60,7 @@ bool OvertakingFilter::settle(std::uint32_t to) {
 
 /// False if it takes more than doubles.
 bool OvertakingFilter::judge(std::uint32_t to) {
-  const auto& stretch = filter_[to].stretch[side_];
+  const auto stretch = filter_.cones().stretch(to, side_);
   if (stretch.high < (passed_ ? passed_->at.low : 0) || stretch.low > (next_.exists ? next_.at.high : 1)) return true;
   if (contenders_.tangent(from_, to)) {
     const auto event = tangent_event(contenders_, side_, from_, to);
@@ -88,8 +88,8 @@ bool OvertakingFilter::judge(std::uint32_t to) {
 bool OvertakingFilter::judge_ray(std::uint32_t to, const RayEvent& event) {
   ++next_.decisions;
   const bool inward = event.parent == to;
-  const auto& corner = filter_[event.parent].ray[event.end].at_corner;
-  const Bounded &first = corner[side_], &last = corner[(side_ + 1) % 3];
+  const auto& cones = filter_.cones();
+  const Bounded first = cones.at_corner(event.parent, event.end, side_), last = cones.at_corner(event.parent, event.end, (side_ + 1) % 3);
   if ((first.positive() && last.positive()) || (first.negative() && last.negative())) return true;  // it does not cross the side
   const auto at = locate_ray(event, inward);
   if (!at) return false;
@@ -157,7 +157,7 @@ OvertakingFilter::Finding OvertakingFilter::ahead(std::uint32_t to) const {
 
 /// Distances are convex: one is above its tangents, the other below its chord.
 MaybeSign OvertakingFilter::constant_sign(std::uint32_t to, double begin, double end, int halvings) const {
-  const auto &a = filter_[from_].wave, &b = filter_[to].wave;
+  const auto &a = filter_.wave(from_), &b = filter_.wave(to);
   const auto& side = filter_.side(side_);
   const predicates::DoublePoint p = side.at(begin), q = side.at(end);
   struct Along {
@@ -185,7 +185,7 @@ MaybeSign OvertakingFilter::constant_sign(std::uint32_t to, double begin, double
 
 /// Encloses the falling zero between two signs, by Newton's iteration kept inside. Pre: one such zero lies in (begin, end).
 std::optional<OvertakingFilter::Place> OvertakingFilter::locate(std::uint32_t to, double begin, double end) const {
-  const auto &a = filter_[from_].wave, &b = filter_[to].wave;
+  const auto &a = filter_.wave(from_), &b = filter_.wave(to);
   const auto& side = filter_.side(side_);
   double low = begin, high = end, t = 0.5 * (begin + end);
   constexpr int kMostSteps = 12;
@@ -210,8 +210,8 @@ std::optional<OvertakingFilter::Place> OvertakingFilter::locate(std::uint32_t to
 
 /// Where the cone of the parent begins (inward) or ends along the side. Only doubles, so by signs again.
 std::optional<OvertakingFilter::Place> OvertakingFilter::locate_ray(const RayEvent& event, bool inward) const {
-  const auto& corner = filter_[event.parent].ray[event.end].at_corner;
-  const Bounded &first = corner[side_], &last = corner[(side_ + 1) % 3];
+  const auto& cones = filter_.cones();
+  const Bounded first = cones.at_corner(event.parent, event.end, side_), last = cones.at_corner(event.parent, event.end, (side_ + 1) % 3);
   const Bounded &outside = inward ? first : last, &inside = inward ? last : first;
   if (!outside.negative() || !inside.positive()) return std::nullopt;
   const double t = first.value / (first.value - last.value), span = std::fabs(first.value - last.value);

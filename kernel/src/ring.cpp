@@ -259,11 +259,28 @@ std::optional<bool> Ring::ties(const Node& node, std::span<const std::uint32_t> 
   });
 }
 
-/// What ties by identity is asked first, since the numbers of the rest may be beyond all proof.
+/// Whether doubles show that a wave is farther from the point than another one that is known to tie there, or does not see it.
+bool Ring::is_apart(const predicates::PlanePoint<FacetLadder::F>& p, std::uint32_t known, std::uint32_t other) const {
+  const auto& numbers = ladder_.filter();
+  const Contender& wave = contenders_[other];
+  const auto distance_of = [&](const Contender& c) { return distance(*numbers.sites[c.site], p); };
+  if (maybe_sign(distance_of(wave) - distance_of(contenders_[known])) == Sign::positive) return true;
+  for (std::size_t end = 0; wave.has_cone && end < 2; ++end)
+    if (maybe_sign(cone_side(numbers, wave, end, p)) == Sign::negative) return true;
+  return false;
+}
+
+/// What ties by identity is asked before the rest, whose numbers may be beyond all proof; but first of all what doubles exclude, since that is most.
 bool Ring::add_ties(const Node& node, std::vector<std::uint32_t>& known) {
   std::vector<std::uint32_t> others;
-  for (std::uint32_t i = 0; i < contenders_.size(); ++i)
-    if (std::find(known.begin(), known.end(), i) == known.end()) others.push_back(i);
+  const auto p = node_point(waves_, ladder_.filter(), node);
+  for (std::uint32_t i = 0; i < contenders_.size(); ++i) {
+    if (std::find(known.begin(), known.end(), i) != known.end()) continue;
+    if (is_apart(p, known.front(), i))
+      ladder_.count(predicate_at(node.kind), robust::Stage::filter);
+    else
+      others.push_back(i);
+  }
   bool may_be_known = true;
   while (!others.empty()) {
     auto other = others.end();

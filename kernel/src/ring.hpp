@@ -44,6 +44,7 @@ class Ring {
     std::optional<bool> on_side_line;          ///< the image lies on the line of the node's side; asked for when needed
   };
 
+  bool is_apart(const predicates::PlanePoint<FacetLadder::F>& p, std::uint32_t known, std::uint32_t other) const;
   bool load(const Node& node, std::span<const std::uint32_t> tied);
   robust::MaybeSign at_ray(std::uint32_t contender, std::size_t end);
   std::optional<std::uint32_t> winner_after(const Direction& d);

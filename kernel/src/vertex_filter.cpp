@@ -81,7 +81,7 @@ VertexFilter::Answer VertexFilter::nearer(const std::array<std::uint32_t, 3>& wa
     if (contenders_.eclipses(own, rival)) return Answer::no;
   for (const std::uint32_t own : waves)
     if (contenders_.eclipses(rival, own)) return sees(rival, at);
-  const auto &own = filter_[waves[1]].wave, &other = filter_[rival].wave;
+  const auto &own = filter_.wave(waves[1]), &other = filter_.wave(rival);
   Bounded lead = predicates::difference(own, distance(own, at.p), other, distance(other, at.p));
   lead.error += 2 * at.radius;
   if (lead.positive()) return Answer::no;
@@ -91,7 +91,7 @@ VertexFilter::Answer VertexFilter::nearer(const std::array<std::uint32_t, 3>& wa
 
 /// predicates::bisector_vertex in doubles; the pivot is in the middle.
 std::optional<VertexFilter::Guess> VertexFilter::guess(const std::array<std::uint32_t, 3>& waves) const {
-  const auto &wi = filter_[waves[0]].wave, &wj = filter_[waves[1]].wave, &wk = filter_[waves[2]].wave;
+  const auto &wi = filter_.wave(waves[0]), &wj = filter_.wave(waves[1]), &wk = filter_.wave(waves[2]);
   const DoublePoint ai = minus(wi.image, wj.image), ak = minus(wk.image, wj.image);
   const bool same_i = contenders_[waves[0]].root == contenders_[waves[1]].root, same_k = contenders_[waves[2]].root == contenders_[waves[1]].root;
   const double si = same_i ? 0 : wi.weight - wj.weight, sk = same_k ? 0 : wk.weight - wj.weight;
@@ -130,10 +130,10 @@ bool VertexFilter::certainly_none(const std::array<std::uint32_t, 3>& waves) con
     const std::uint32_t a = waves[n], b = waves[(n + 1) % 3];
     if (contenders_[a].root == contenders_[b].root) continue;
     one_root = false;
-    if (predicates::certainly_nearer(filter_[a].wave, filter_[b].wave) || predicates::certainly_nearer(filter_[b].wave, filter_[a].wave)) return true;
+    if (predicates::certainly_nearer(filter_.wave(a), filter_.wave(b)) || predicates::certainly_nearer(filter_.wave(b), filter_.wave(a))) return true;
   }
   if (!one_root) return false;
-  const auto &wi = filter_[waves[0]].wave, &wj = filter_[waves[1]].wave, &wk = filter_[waves[2]].wave;
+  const auto &wi = filter_.wave(waves[0]), &wj = filter_.wave(waves[1]), &wk = filter_.wave(waves[2]);
   return predicates::bounded_cross(minus(wk.image, wj.image), wk.error + wj.error, minus(wi.image, wj.image), wi.error + wj.error).negative();
 }
 
@@ -147,7 +147,7 @@ VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& wav
   std::array<double, 3> value;
   double curvature = 0, turn_error = 32 * kUnit, error = 0, least_reach = 0;
   for (std::size_t n = 0; n < 3; ++n) {
-    const auto& wave = filter_[waves[n]].wave;
+    const auto& wave = filter_.wave(waves[n]);
     const DoublePoint away = minus(start->p, wave.image);
     const double r = std::sqrt(dot(away, away)), share = n == 1 ? 2 : 1;
     u[n] = {start->sign[n] * away.x / r, start->sign[n] * away.y / r};
@@ -179,8 +179,8 @@ VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& wav
 
 /// Beyond the relay on its parent's boundary ray, d_other - d_relay can only fall: two signs enclose its zero, one tells that there is none in reach.
 VertexFilter::Found VertexFilter::locate_on_ray(const OnRay& on) const {
-  const auto& ray = filter_[on.parent].ray[on.end];
-  const auto &relay = filter_[on.relay].wave, &other = filter_[on.other].wave;
+  const auto ray = filter_.cones().ray(on.parent, on.end);
+  const auto &relay = filter_.wave(on.relay), &other = filter_.wave(on.other);
   const DoublePoint along = minus(relay.image, ray.from);
   const double length = std::sqrt(dot(along, along));
   const double turn = 2 * (relay.error + ray.from_error) / length + 8 * kUnit;  // error of the ray's direction
@@ -196,7 +196,7 @@ VertexFilter::Found VertexFilter::locate_on_ray(const OnRay& on) const {
   if (first.negative()) found.exists = Answer::no;
   if (!first.positive()) return found;
   double far = 0;
-  for (std::size_t c = 0; c < 3; ++c) far = std::max(far, filter_[on.relay].reach[c]);
+  for (std::size_t c = 0; c < 3; ++c) far = std::max(far, distance({relay.image, 0, 0}, filter_.side(c).origin));
   if (lead(far * (1 + 0x1p-20) + 2 * (off(far) + filter_.side(2).error)).positive()) {
     found.exists = Answer::no;  // in the facet there is none
     return found;

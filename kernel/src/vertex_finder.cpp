@@ -66,7 +66,7 @@ std::optional<BisectorVertices::InDoubles> BisectorVertices::find_in_doubles(std
 }
 
 std::optional<bool> BisectorVertices::is_beaten(const InDoubles& vertex, std::uint32_t rival) {
-  const VertexFilter::Answer nearer = filter_.nearer(vertex.waves, rival, {{vertex.node.x.mid(), vertex.node.y.mid()}, vertex.node.x.rad()});
+  const VertexFilter::Answer nearer = filter_.nearer(vertex.waves(), rival, vertex.at);
   if (nearer == VertexFilter::Answer::unknown) return std::nullopt;
   ladder_.count(Predicate::conflict, Stage::filter);
   return nearer == VertexFilter::Answer::yes;
@@ -82,8 +82,7 @@ std::optional<BisectorVertices::Triple> BisectorVertices::triple(std::uint32_t i
   for (std::size_t first = 0; first < 3; ++first) {
     const std::uint32_t a = w[first], b = w[(first + 1) % 3], third = w[(first + 2) % 3];
     if (!contenders_.related(a, b)) continue;
-    const bool one_ray = contenders_.eclipses(a, b) || contenders_.eclipses(b, a);
-    if (one_ray && !contenders_.tangent(a, b)) return std::nullopt;  // they tie where the first does not see, or at the corner only
+    if (!contenders_.tangent(a, b)) return std::nullopt;  // one eclipses the other: they tie where the first does not see, or at the corner only
     for (const bool relay_first : {true, false}) {
       const std::uint32_t relay = relay_first ? a : b, parent = relay_first ? b : a;
       const int end = contenders_.tangent_end(parent, relay);
@@ -258,20 +257,23 @@ bool BisectorVertices::examine_in_doubles(const Triple& t, std::span<const std::
   ladder_.count(Predicate::cone_membership, Stage::filter, judged.rays);
   ladder_.count(Predicate::conflict, Stage::filter, judged.rivals);
   if (!judged.exists) return true;
-  found.exists = true;
-  found.node = node_of(t);
-  found.waves = t.waves;
-  found.node.sites = {contenders_[t.waves[0]].site, contenders_[t.waves[1]].site, contenders_[t.waves[2]].site};
-  found.node.x = FacetWaves::F(judged.at.p.x, judged.at.radius);
-  found.node.y = FacetWaves::F(judged.at.p.y, judged.at.radius);
+  found = {true, t, judged.at};
   return true;
+}
+
+Node BisectorVertices::node(const InDoubles& vertex) const {
+  const auto& waves = vertex.waves();
+  Node node = node_of(vertex.triple);
+  node.sites = {contenders_[waves[0]].site, contenders_[waves[1]].site, contenders_[waves[2]].site};
+  node.x = FacetWaves::F(vertex.at.p.x, vertex.at.radius);
+  node.y = FacetWaves::F(vertex.at.p.y, vertex.at.radius);
+  return node;
 }
 
 void BisectorVertices::examine(const Triple& t, Found& found) {
   if (InDoubles known; examine_in_doubles(t, rivals_, known)) {
     found.exists = known.exists;
-    found.node = std::move(known.node);
-    if (known.exists) found.open.assign(known.waves.begin(), known.waves.end());
+    if (known.exists) found.node = node(known), found.open.assign(known.waves().begin(), known.waves().end());
     return;
   }
   pending_.clear();

@@ -40,25 +40,27 @@ class BisectorVertices {
   /// The vertex with the regions of i, j, k counter-clockwise round it, perhaps with others in between. Remembered, and one for all triples that
   /// meet in one point. Null on failure. Pre: i, j, k are different rivals.
   Found* find(std::uint32_t i, std::uint32_t j, std::uint32_t k);
-  /// The same without memory and with other rivals, by doubles alone; empty if they cannot tell.
-  struct InDoubles {
-    bool exists = false;
-    std::array<std::uint32_t, 3> waves{};  ///< counter-clockwise
-    FacetTessellation::Node node;
-  };
-  std::optional<InDoubles> find_in_doubles(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::span<const std::uint32_t> rivals);
-  /// Whether a rival sees that point and is nearer.
-  std::optional<bool> is_beaten(const InDoubles& vertex, std::uint32_t rival);
-
- private:
   /// How to construct the vertex: the three waves in counter-clockwise order, the pivot in the middle; or, if two of them are tangent,
   /// the relay, the third wave, and the parent's boundary ray.
   struct Triple {
-    std::array<std::uint32_t, 3> waves;
+    std::array<std::uint32_t, 3> waves{};
     bool on_ray = false;
     std::uint32_t pivot = 0, other = 0, parent = 0;
     std::uint8_t ray_end = 0;
   };
+  /// The same without memory and with other rivals, by doubles alone; empty if they cannot tell.
+  struct InDoubles {
+    bool exists = false;
+    Triple triple;
+    VertexFilter::Location at;
+    const std::array<std::uint32_t, 3>& waves() const { return triple.waves; }  ///< counter-clockwise
+  };
+  std::optional<InDoubles> find_in_doubles(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::span<const std::uint32_t> rivals);
+  /// Whether a rival sees that point and is nearer.
+  std::optional<bool> is_beaten(const InDoubles& vertex, std::uint32_t rival);
+  FacetTessellation::Node node(const InDoubles& vertex) const;
+
+ private:
   enum class Verdict { pass, reject, open, tie, on_ray };
   /// What has to hold: existence, then within the three sides, in the cones of the three (two rays each), then not in conflict with a rival.
   static constexpr std::uint32_t kExistence = 0, kSides = 1, kCones = 4, kRivals = 10;

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "gvd/predicates/cone_row.hpp"
 #include "gvd/predicates/wave.hpp"
 
 namespace {
@@ -97,6 +98,34 @@ std::optional<DoublePoint> tie_between(const Ends& ends, double share) {
   return tie(ends.pair, {p.x + chord.y, p.y - chord.x}, {p.x - chord.y, p.y + chord.x});
 }
 
+std::pmr::memory_resource* room() { return std::pmr::new_delete_resource(); }
+/// Whether another wave is certainly farther than the left one all along the piece, whatever its place in a row.
+bool is_farther(const BisectorPiece& piece, const DoubleWave& left, const DoubleWave& other) {
+  std::vector<DoubleWave> waves(6, left);
+  waves[1] = waves[5] = other;
+  const gvd::predicates::WaveRow row(waves, room());
+  gvd::predicates::WaveRow::Reading middle(row, room());
+  gvd::predicates::WaveRow::Marks marks(row, room());
+  row.read(piece.middle, middle);
+  row.mark_farther(piece, middle, 0, marks);
+  EXPECT_EQ(marks[1], marks[5]);
+  EXPECT_FALSE(marks[0] || marks[4]);
+  return marks[1];
+}
+/// Whether a wave whose cone ends at the line, on either side of it, certainly does not see the piece.
+bool is_right_of(const BisectorPiece& piece, const DoubleLine& line) {
+  const DoubleLine other{piece.middle, {0, 0}, 0, 0};
+  gvd::predicates::ConeRow row(5, room());
+  gvd::predicates::WaveRow::Marks marks(gvd::predicates::WaveRow(std::vector<DoubleWave>(5), room()), room());
+  for (std::size_t i = 0; i < 5; ++i) marks.data()[i] = i == 2 ? -1 : 0;
+  row.set(0, {line, other}, {false, false, false});
+  row.set(4, {other, line}, {false, false, false});
+  row.mark_blind(piece, marks);
+  EXPECT_EQ(marks[0], marks[4]);
+  EXPECT_TRUE(marks[2] && !marks[1]);
+  return marks[0];
+}
+
 TEST(BisectorPiece, WhatIsCalledFartherIsFartherAtEveryTie) {
   Family family(1);
   int pieces = 0, farther = 0, others = 0, beyond = 0;
@@ -120,7 +149,7 @@ TEST(BisectorPiece, WhatIsCalledFartherIsFartherAtEveryTie) {
       const TrueWave truth = family.member(other);
       const DoublePoint to{near.x + later * family.share(), near.y + later * family.share()};
       const DoubleLine line{to, family.point(), 0x1p-30, 0x1p-30};
-      const bool is_nearer = piece->is_nearer_than(other), is_right = piece->is_right_of(line);
+      const bool is_nearer = is_farther(*piece, ends->pair.left, other), is_right = is_right_of(*piece, line);
       farther += is_nearer, beyond += is_right;
       for (const DoublePoint& at : ties) {
         const double lead = nearest(distance(truth, wide(at)) - distance(ends->pair.true_left, wide(at)));
@@ -146,10 +175,10 @@ TEST(BisectorPiece, WhatTiesOnThePieceIsNeverCalledFarther) {
     ++asked;
     DoubleWave other = family.wave();
     other.weight = gvd::predicates::distance(ends->pair.left, *at) - gvd::predicates::distance({other.image, 0, 0}, *at);
-    EXPECT_FALSE(piece->is_nearer_than(other)) << "round " << round;
+    EXPECT_FALSE(is_farther(*piece, ends->pair.left, other)) << "round " << round;
     const DoublePoint chord{ends->to.x - ends->from.x, ends->to.y - ends->from.y};
     for (const DoublePoint& along : {family.point(), chord, DoublePoint{-chord.x, -chord.y}})
-      EXPECT_FALSE(piece->is_right_of({*at, along, 0, 0})) << "round " << round;
+      EXPECT_FALSE(is_right_of(*piece, {*at, along, 0, 0})) << "round " << round;
   }
   EXPECT_GT(asked, 250);
 }
