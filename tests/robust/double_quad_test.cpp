@@ -17,6 +17,21 @@ bool are_same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == st
 bool are_same(const DoubleDouble& a, const DoubleDouble& b) { return are_same(a.hi, b.hi) && are_same(a.lo, b.lo); }
 bool are_same(const B& a, const B& b) { return are_same(a.mid(), b.mid()) && are_same(a.rad(), b.rad()); }
 
+/// As the library has it compiled for processors with fused multiply-add, where this is one.
+#if defined(__x86_64__) && defined(__GNUC__)
+bool has_fma() { return __builtin_cpu_supports("fma") != 0; }
+template <class Work>
+__attribute__((target("fma"), flatten)) auto by_fma(const Work& work) {
+  return work();
+}
+#else
+bool has_fma() { return false; }
+template <class Work>
+auto by_fma(const Work& work) {
+  return work();
+}
+#endif
+
 class Quads : public testing::Test {
  protected:
   static constexpr int kRounds = 50000;
@@ -34,7 +49,8 @@ class Quads : public testing::Test {
   void expect_alike(const char* what, const Quad& of_quads, const One& of_one) {
     for (int round = 0; round < kRounds; ++round) {
       const auto a = balls(), b = balls();
-      const auto result = of_quads(BallQuad(a[0], a[1], a[2], a[3]), BallQuad(b[0], b[1], b[2], b[3]));
+      const auto work = [&] { return of_quads(BallQuad(a[0], a[1], a[2], a[3]), BallQuad(b[0], b[1], b[2], b[3])); };
+      const auto result = has_fma() && round % 2 == 0 ? by_fma(work) : work();
       for (std::size_t k = 0; k < 4; ++k) {
         const B one = of_one(a[k], b[k]);
         ASSERT_TRUE(are_same(result.lane(k), one)) << what << ", lane " << k << " of round " << round << ": " << result.lane(k).mid().hi << " +- "
