@@ -55,12 +55,16 @@ class FacetLadder {
   template <class Test, class Describe>
   auto decide_beyond_filter(predicates::Predicate p, const Test& test, const Describe& describe)
       -> decltype(test(std::declval<FacetNumbers<F>&>())) {
+    robust::Stage last = robust::Stage::undecided;
     auto answer = for_each_stage([&](const auto& numbers, robust::Stage stage) {
-      auto result = test(numbers);
-      if (result) count(p, stage);
-      return result;
+      last = stage;
+      return test(numbers);
     });
-    if (!answer) fail(p, describe());
+    if (answer) {
+      count(p, last);
+    } else {
+      fail(p, describe());
+    }
     return answer;
   }
 

@@ -404,7 +404,7 @@ bool Resolution::are_equal(const Leg& a, const Leg& b) const {
 /// Whether two ways to one apex part over a side from which both see it in one place: going backwards to that side, they show one image of it.
 bool Resolution::show_end_alike(std::span<const HalfedgeId> a, std::span<const HalfedgeId> b) const {
   const auto common = static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
-  if (common == 0 || common == a.size() || common == b.size()) return false;
+  if (common == 0 || common == std::min(a.size(), b.size())) return false;
   const auto backwards = [&](std::span<const HalfedgeId> way) {
     std::vector<HalfedgeId> sides;
     for (std::size_t i = way.size(); i >= common; --i) sides.push_back(frames_.mesh().twin(way[i - 1]));

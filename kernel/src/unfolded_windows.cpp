@@ -41,7 +41,6 @@ UnfoldedWindows::Entry UnfoldedWindows::make(const Frames& frames, const Distanc
   const std::size_t c = left ? 1 : 0;  // the cone vertex on the side that is left
   entry.bounds_edge[c] = record.apex_in_cone();
   if (record.apex_in_cone()) entry.bound[c] = record.parent;
-  entry.dead = parent->dead || record.dead();
   return entry;
 }
 

@@ -20,7 +20,7 @@ class UnfoldedWindows {
     /// Per cone vertex: whether it bounds the last edge, too: no step since has left it.
     std::array<bool, 2> bounds_edge{true, true};
     WindowId first = kNone;  ///< the first window of the strip
-    bool dead = false;       ///< the window, or one that it comes from, was superseded
+    bool dead = false;       ///< the first window was superseded, and so all that come from it
   };
 
   /// Those wanted and all they come from, in the order in which windows were made: parents first.

@@ -145,7 +145,7 @@ VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& wav
   if (!start) return {};
   std::array<DoublePoint, 3> u;
   std::array<double, 3> value;
-  double curvature = 0, turn_error = 32 * kUnit, error = 0, least_reach = 0;
+  double curvature = 0, turn_error = 32 * kUnit, error = 0;
   for (std::size_t n = 0; n < 3; ++n) {
     const auto& wave = filter_.wave(waves[n]);
     const DoublePoint away = minus(start->p, wave.image);
@@ -155,7 +155,6 @@ VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& wav
     curvature += 2 * share / r;
     turn_error += 4 * share * wave.error / r;
     error += share * (wave.error + kDoubleWaveError * (std::fabs(wave.weight) + r));
-    least_reach = n == 0 ? r : std::min(least_reach, r);
     if (!(4 * wave.error < r)) return {};
   }
   const DoublePoint ji = minus(u[0], u[1]), jk = minus(u[2], u[1]);
@@ -166,7 +165,7 @@ VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& wav
   const DoublePoint step{(fk * ji.y - fi * jk.y) / det, (fi * jk.x - fk * ji.x) / det};
   const double moved = std::sqrt(dot(step, step));
   const double eta = 1.25 * (moved + inverse * error), h = inverse * curvature * eta;
-  if (!(h < 0.25 && 8 * eta < least_reach)) return {};
+  if (!(h < 0.25)) return {};
   const double sign = start->sign[0] * start->sign[1] * start->sign[2];
   if (!(-det * sign > 0)) return {};
   Found found;

@@ -1,6 +1,7 @@
+#include "double_double_steps.hpp"
+
 #include "fused_multiply_add.hpp"
 #include "gvd/predicates/enclosed_frame.hpp"
-#include "gvd/predicates/strip.hpp"
 
 namespace gvd::predicates {
 
@@ -23,7 +24,6 @@ inline void unfold_steps_here(Unfolding<DoubleDouble>& at, std::span<const Doubl
   at = here;
 }
 
-#ifdef GVD_CHOOSES_FMA
 GVD_FMA Disc<DoubleDouble> cross_by_fma(const Disc<DoubleDouble>& z, const DoubleDoubleStep& step) { return cross_here(z, step); }
 template <bool kCone>
 GVD_FMA void unfold_steps_by_fma(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {
@@ -32,31 +32,33 @@ GVD_FMA void unfold_steps_by_fma(Unfolding<DoubleDouble>& at, std::span<const Do
 GVD_FMA robust::Ball<DoubleDouble> last_leg_by_fma(const Disc<DoubleDouble>& image, const Frame& frame, double unit) {
   return last_leg<DoubleDouble>(image, frame, unit);
 }
-#endif
 
 }  // namespace
 
+namespace without_fma {
+
+Disc<DoubleDouble> cross(const Disc<DoubleDouble>& z, const DoubleDoubleStep& step) { return cross_here(z, step); }
+template <bool kCone>
+void unfold_steps(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {
+  unfold_steps_here<kCone>(at, steps);
+}
+template void unfold_steps<false>(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
+template void unfold_steps<true>(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
+
+}  // namespace without_fma
+
 Disc<DoubleDouble> cross(const Disc<DoubleDouble>& z, const Frame& side, bool left, double) {
   const DoubleDoubleStep step = step_over(side, left, false);
-#ifdef GVD_CHOOSES_FMA
-  if (has_fma()) return cross_by_fma(z, step);
-#endif
-  return cross_here(z, step);
+  return has_fma() ? cross_by_fma(z, step) : without_fma::cross(z, step);
 }
 
 robust::Ball<DoubleDouble> last_leg(const Disc<DoubleDouble>& image, const Frame& frame, double unit) {
-#ifdef GVD_CHOOSES_FMA
-  if (has_fma()) return last_leg_by_fma(image, frame, unit);
-#endif
-  return last_leg<DoubleDouble>(image, frame, unit);
+  return has_fma() ? last_leg_by_fma(image, frame, unit) : last_leg<DoubleDouble>(image, frame, unit);
 }
 
 template <bool kCone>
 void unfold_steps(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps) {
-#ifdef GVD_CHOOSES_FMA
-  if (has_fma()) return unfold_steps_by_fma<kCone>(at, steps);
-#endif
-  unfold_steps_here<kCone>(at, steps);
+  has_fma() ? unfold_steps_by_fma<kCone>(at, steps) : without_fma::unfold_steps<kCone>(at, steps);
 }
 template void unfold_steps<false>(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);
 template void unfold_steps<true>(Unfolding<DoubleDouble>& at, std::span<const DoubleDoubleStep> steps);

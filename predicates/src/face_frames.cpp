@@ -51,27 +51,19 @@ GVD_QUAD Frames face_frames_here(const Sides& side) {
   return frames;
 }
 
-#ifdef GVD_CHOOSES_FMA
 GVD_FMA Frames face_frames_by_fma(const Side& ab, const Side& bc, const Side& ca) { return face_frames_here(in_lanes(ab, bc, ca)); }
 GVD_FMA Frames face_frames_by_fma(const Vector<double>& a, const Vector<double>& b, const Vector<double>& c, double factor) {
   return face_frames_here(in_lanes(a, b, c, factor));
 }
-#endif
 
 }  // namespace
 
 Frames face_frames(const Side& ab, const Side& bc, const Side& ca) {
-#ifdef GVD_CHOOSES_FMA
-  if (has_fma()) return face_frames_by_fma(ab, bc, ca);
-#endif
-  return face_frames_here(in_lanes(ab, bc, ca));
+  return has_fma() ? face_frames_by_fma(ab, bc, ca) : face_frames_here(in_lanes(ab, bc, ca));
 }
 
 Frames face_frames(const Vector<double>& a, const Vector<double>& b, const Vector<double>& c, double factor) {
-#ifdef GVD_CHOOSES_FMA
-  if (has_fma()) return face_frames_by_fma(a, b, c, factor);
-#endif
-  return face_frames_here(in_lanes(a, b, c, factor));
+  return has_fma() ? face_frames_by_fma(a, b, c, factor) : face_frames_here(in_lanes(a, b, c, factor));
 }
 
 ExactFace exact_face(const std::array<Vector<mpq_class>, 3>& side) {

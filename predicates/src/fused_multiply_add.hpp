@@ -14,4 +14,12 @@ inline bool has_fma() {
 }
 
 }  // namespace gvd::predicates
+#else
+#define GVD_FMA
+
+namespace gvd::predicates {
+
+constexpr bool has_fma() { return false; }
+
+}  // namespace gvd::predicates
 #endif

@@ -86,10 +86,9 @@ class Evaluation {
         return of(*e.left) - of(*e.right);
       case Operation::multiply:
         return of(*e.left) * of(*e.right);
-      case Operation::divide:
-        break;
+      default:
+        return of(*e.left) / of(*e.right);
     }
-    return of(*e.left) / of(*e.right);
   }
 
   int bits_;

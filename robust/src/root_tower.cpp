@@ -150,7 +150,7 @@ std::optional<TowerFraction> RootTower::root_in_field(const TowerElement& x, int
   for (const TowerElement& norm : {n->numerator, negate(n->numerator)}) {
     const TowerElement sum = add(a, norm);                                   // 2 s^2, times the denominator of n
     const auto root = root_in_field(multiply(sum, half), level - 1);  // s times `half`
-    if (!root || is_exhausted()) continue;
+    if (!root) continue;  // whatever was found with the last work allowed: who asked for it sees that there is none left
     // s + b / (2 s) sqrt g = (2 s^2 + b sqrt g) / (2 s)
     const TowerElement numerator = multiply(TowerElement(level, sum, multiply(x.b(), n->denominator)), root->denominator);
     return reduced({numerator, root->numerator});

@@ -12,6 +12,7 @@
 #include "fuzz/generators/family.hpp"
 #include "gvd/kernel/surface_point.hpp"
 #include "gvd/predicates/wave.hpp"
+#include "gvd/robust/proof_limit.hpp"
 #include "support/field_facets.hpp"
 #include "support/mirrored_terrain.hpp"
 #include "support/truth.hpp"
@@ -180,6 +181,46 @@ TEST(WaveIdentities, OfCornersAcrossAnEdge) {
     Found found;
     ask_all(mesh, at_vertices(mesh, {2, 3}), found);
     EXPECT_EQ(found["across an edge"] > 0, apex == -1.0);
+  }
+}
+
+// Two faces glued along all their sides: three edges of the input lie between the same two faces.
+TEST(WaveIdentities, OfAPillow) {
+  const Mesh mesh({{{0, 0, 0}, {4, 0, 0}, {1, 3, 0}}, {{0, 1, 2}, {0, 2, 1}}});
+  Found found;
+  const auto inside = [&](FaceId f, int a, int b, int c) { return Source{point_in_face(mesh, f, {mpq_class(a), mpq_class(b), mpq_class(c)}), 0}; };
+  ask_all(mesh, {inside(0, 1, 1, 1), inside(1, 1, 1, 1)}, found);
+  ask_all(mesh, {inside(0, 2, 1, 1), inside(0, 1, 2, 1), inside(1, 1, 1, 2), inside(1, 3, 1, 2)}, found);
+  expect_found(found, {"where they part"});
+}
+
+// With one proof refused after the other, and all after it: what is proved still holds.
+TEST(WaveIdentities, WithProofsRefused) {
+  for (const auto& arrays : {test::flat_grid(3, 2), test::flat_grid(3, 3, test::Diagonal::alternating), test::plane_with_hole(5, 4, 2, 3, 2, 3)}) {
+    const Mesh mesh(arrays);
+    const test::FieldFacets field(mesh, at_vertices(mesh, {0, static_cast<VertexId>(mesh.vertex_count()) - 1}));
+    int proved = 0, refused = 0;
+    field.for_each_boundary_facet([&](FieldWaves& facet) {
+      for (std::size_t a = 0; a < facet.sites.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+          if (facet.sites[a].window == kNone || facet.sites[b].window == kNone) continue;
+          const auto &of_a = facet.site(a, Number(), kBits), &of_b = facet.site(b, Number(), kBits);
+          const bool are_one_wave = are_one(of_a.image, of_b.image) && is_zero(of_a.weight - of_b.weight);
+          for (const std::uint64_t more : {std::uint64_t{1}, robust::ProofLimit::kAll}) {
+            bool goes_on = true;
+            for (std::uint64_t proofs = 0; goes_on; ++proofs) {
+              const robust::ProofLimit limit(proofs, more);
+              const bool said = facet.are_proved_one_wave(a, b);
+              EXPECT_TRUE(!said || are_one_wave);
+              goes_on = limit.was_reached() && proofs < 20;
+              (said ? proved : refused) += are_one_wave;
+            }
+          }
+        }
+      }
+    });
+    EXPECT_GT(proved, 0);
+    EXPECT_GT(refused, 0);
   }
 }
 

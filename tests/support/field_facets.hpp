@@ -16,7 +16,9 @@ namespace gvd::test {
 /// The distance field of a mesh, and the wave sets of its facets as the solver makes them.
 class FieldFacets {
  public:
-  FieldFacets(const kernel::Mesh& mesh, const std::vector<kernel::Source>& sources) : refined_(kernel::refine(mesh, sources, where_)) {
+  /// `change`: what is done to the field between propagation and resolution.
+  FieldFacets(const kernel::Mesh& mesh, const std::vector<kernel::Source>& sources, const std::function<void(kernel::DistanceField&)>& change = {})
+      : refined_(kernel::refine(mesh, sources, where_)) {
     frames_ = std::make_unique<kernel::Frames>(refined_);
     kinds_ = kernel::classify_vertices(refined_, decisions_);
     std::vector<kernel::WaveStart> starts;
@@ -25,11 +27,15 @@ class FieldFacets {
       starts.push_back({where_.vertex[i], std::ldexp(where_.weight[i], -frames_->scale())});
     }
     kernel::propagate(*frames_, starts, kinds_, field_, decisions_);
+    if (change) change(field_);
     resolution_ = std::make_unique<kernel::Resolution>(*frames_, field_, source_vertices_, sets_);
     resolution_->resolve(decisions_);
   }
 
   const kernel::Mesh& mesh() const { return refined_; }
+  const kernel::Frames& frames() const { return *frames_; }
+  const kernel::DistanceField& field() const { return field_; }
+  const kernel::LabelSets& sets() const { return sets_; }
   const kernel::Resolution& resolution() const { return *resolution_; }
   std::unique_ptr<kernel::FieldWaves> waves_of(kernel::FaceId f, const kernel::UnfoldedWindows* unfolded = nullptr) const {
     return std::make_unique<kernel::FieldWaves>(*resolution_, kinds_, f, unfolded);

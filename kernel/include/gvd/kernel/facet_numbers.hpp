@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
+#include "gvd/kernel/error.hpp"
 #include "gvd/kernel/facet.hpp"
 #include "gvd/predicates/side_tie.hpp"
 
@@ -25,13 +27,14 @@ class SiteNumbers {
 
   std::size_t size() const noexcept { return known_.size(); }
   const Site* operator[](std::size_t i) const {
-    if (known_[i] == nullptr && waves_ != nullptr) known_[i] = ask(i);
+    if (known_[i] == nullptr) known_[i] = ask(i);
     return known_[i];
   }
   void set(std::size_t i, const Site& site) { known_[i] = &site; }
 
  private:
   const Site* ask(std::size_t i) const {
+    if (waves_ == nullptr) throw InternalError("wave " + std::to_string(i) + " was not added to the numbers of its facet");
     if constexpr (std::is_same_v<NT, robust::Exact>)
       return waves_->exact_site(i);
     else if constexpr (std::is_same_v<NT, FacetWaves::M>)
