@@ -90,11 +90,10 @@ bool OvertakingFilter::judge_ray(std::uint32_t to, const RayEvent& event) {
   const bool inward = event.parent == to;
   const auto& cones = filter_.cones();
   const Bounded first = cones.at_corner(event.parent, event.end, side_), last = cones.at_corner(event.parent, event.end, (side_ + 1) % 3);
-  if ((first.positive() && last.positive()) || (first.negative() && last.negative())) return true;  // it does not cross the side
+  if (first.positive() && last.positive()) return true;  // it does not cross the side (nor where both are outside: then the parent is not seen there)
   const auto at = locate_ray(event, inward);
-  if (!at) return false;
-  if (passed_ && at->high < passed_->at.low) return true;
-  if (passed_ && !(at->low > passed_->at.high)) return false;
+  // It is never behind the last event: the relay is not the nearest where the parent is seen, nor the parent where it is not.
+  if (!at || (passed_ && !(at->low > passed_->at.high))) return false;
   return offer(to, *at, event);
 }
 

@@ -119,7 +119,8 @@ std::optional<VertexFilter::Guess> VertexFilter::guess(const std::array<std::uin
   const double t = b > 0 ? -c / (b + root) : (root - b) / a;
   const double rho = (r + t * dr) / norm;
   guess.p = {wj.image.x + (x + t * dx) / norm, wj.image.y + (y + t * dy) / norm};
-  guess.sign = {rho > si ? 1.0 : -1.0, rho > 0 ? 1.0 : -1.0, rho > sk ? 1.0 : -1.0};
+  // As those of rho, so those of rho - si and of rho - sk: were two different, their waves' images would be as near as their weights, by the triangle inequality.
+  guess.sign = rho > 0 ? 1 : -1;
   return guess;
 }
 
@@ -138,7 +139,7 @@ bool VertexFilter::certainly_none(const std::array<std::uint32_t, 3>& waves) con
 }
 
 /// One step of Newton's iteration for the two differences of signed distances, with the proof that it converges and how far it may be off.
-/// A solution whose product of signs goes with the turn of the three directions is the vertex asked for; if a sign is negative, there is none.
+/// A solution whose sign goes with the turn of the three directions is the vertex asked for; if the sign is negative, there is none.
 VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& waves) const {
   const auto start = guess(waves);
   if (!start && certainly_none(waves)) return {Answer::no, {}};
@@ -150,8 +151,8 @@ VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& wav
     const auto& wave = filter_.wave(waves[n]);
     const DoublePoint away = minus(start->p, wave.image);
     const double r = std::sqrt(dot(away, away)), share = n == 1 ? 2 : 1;
-    u[n] = {start->sign[n] * away.x / r, start->sign[n] * away.y / r};
-    value[n] = wave.weight + start->sign[n] * r;
+    u[n] = {start->sign * away.x / r, start->sign * away.y / r};
+    value[n] = wave.weight + start->sign * r;
     curvature += 2 * share / r;
     turn_error += 4 * share * wave.error / r;
     error += share * (wave.error + kDoubleWaveError * (std::fabs(wave.weight) + r));
@@ -160,19 +161,16 @@ VertexFilter::Found VertexFilter::locate(const std::array<std::uint32_t, 3>& wav
   const DoublePoint ji = minus(u[0], u[1]), jk = minus(u[2], u[1]);
   const double fi = value[0] - value[1], fk = value[2] - value[1];
   const double size = std::sqrt(dot(ji, ji) + dot(jk, jk)), det = cross(ji, jk);
-  if (!(std::fabs(det) > 16 * (2 * size * turn_error + turn_error * turn_error + 8 * kUnit * size * size))) return {};
+  if (!(-det * start->sign > 16 * (2 * size * turn_error + turn_error * turn_error + 8 * kUnit * size * size))) return {};
   const double inverse = 1.25 * (size + turn_error) / std::fabs(det);
   const DoublePoint step{(fk * ji.y - fi * jk.y) / det, (fi * jk.x - fk * ji.x) / det};
   const double moved = std::sqrt(dot(step, step));
   const double eta = 1.25 * (moved + inverse * error), h = inverse * curvature * eta;
   if (!(h < 0.25)) return {};
-  const double sign = start->sign[0] * start->sign[1] * start->sign[2];
-  if (!(-det * sign > 0)) return {};
   Found found;
   found.at.p = {start->p.x + step.x, start->p.y + step.y};
   found.at.radius = 2 * h * eta + 1.25 * inverse * error + 0.125 * moved + 4 * kUnit * (std::fabs(found.at.p.x) + std::fabs(found.at.p.y));
-  const bool real = start->sign[0] > 0 && start->sign[1] > 0 && start->sign[2] > 0;
-  found.exists = real ? Answer::yes : Answer::no;
+  found.exists = start->sign > 0 ? Answer::yes : Answer::no;
   return found;
 }
 
@@ -203,7 +201,6 @@ VertexFilter::Found VertexFilter::locate_on_ray(const OnRay& on) const {
   const DoublePoint a = minus(other.image, relay.image);
   const double s = other.weight - relay.weight, slope = dot(along, a) - s * length;
   const double reach = 0.5 * (dot(a, a) - s * s) / slope * length;
-  if (!(reach > 0 && reach < 2 * far)) return found;
   const DoublePoint p = at(reach), away = minus(p, other.image);
   const double fall = 1 - dot(along, away) / (length * std::sqrt(dot(away, away)));
   const double margin = 2 * (std::fabs(lead(reach).value) + lead(reach).error) / fall;

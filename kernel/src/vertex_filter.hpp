@@ -46,7 +46,7 @@ class VertexFilter {
   };
   struct Guess {
     Point p{0, 0};
-    std::array<double, 3> sign{1, 1, 1};  ///< of the distances of the three, in the formula
+    double sign = 1;  ///< of the distances of the three, in the formula
   };
   std::optional<Guess> guess(const std::array<std::uint32_t, 3>& waves) const;
   bool certainly_none(const std::array<std::uint32_t, 3>& waves) const;

@@ -1,7 +1,9 @@
 /// What the strips of a facet's waves prove about one another, without numbers or by algebra over the strips.
 #include <algorithm>
+#include <string>
 
 #include "facet_waves.hpp"
+#include "gvd/kernel/error.hpp"
 
 namespace gvd::kernel {
 
@@ -25,7 +27,7 @@ bool FieldWaves::enclose_only_flat(std::span<const HalfedgeId> a, std::span<cons
     }
     return chain;
   };
-  const auto is_flat = [&](VertexId v) { return kinds_[v] == VertexKind::flat && !mesh.is_boundary(v); };
+  const auto is_flat = [&](VertexId v) { return kinds_[v] == VertexKind::flat; };  // of 2 pi: between them the two ways cross all faces round it
   while (!a.empty() || !b.empty()) {
     if (!a.empty() && !b.empty() && a.front() == b.front()) {
       a = a.subspan(1), b = b.subspan(1);
@@ -315,19 +317,19 @@ bool FieldWaves::comes_straight_through(VertexId nearer, VertexId farther, Windo
   return false;
 }
 
-/// The sides crossed when one turns about a vertex, from the first of them until face `end` is reached.
+/// The sides crossed when one turns about a vertex, from the first of them until face `end`, which is at that vertex, too, is reached; empty if that would leave the mesh.
 std::optional<FieldWaves::Sides> FieldWaves::turn_about(HalfedgeId first, bool left, FaceId end) const {
   const Mesh& mesh = resolution_.frames().mesh();
   Sides sides;
   HalfedgeId side = first;
-  do {
+  for (;;) {
     sides.push_back(side);
     const HalfedgeId in = mesh.twin(side);
     if (in == kNone) return std::nullopt;
     if (Mesh::face(in) == end) return sides;
     side = left ? Mesh::next(in) : Mesh::prev(in);
-  } while (side != first);
-  return std::nullopt;
+    if (side == first) throw InternalError("face " + std::to_string(end) + " is not at the vertex that a way turns about");
+  }
 }
 
 /// A way to vertex v and on about it to face `end`; empty if it would leave the mesh.

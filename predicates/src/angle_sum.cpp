@@ -80,6 +80,7 @@ class TurnedProduct {
     const int quarters = turn_certainly(x_, y_);
     certain_ &= quarters != 2;
     quarters_ += quarters == 3 ? -1 : quarters;
+    if (!certain_) return;  // x may be nothing now
     // Corners are about 1 in size (product_of), but there may be thousands.
     const int exponent = std::ilogb(rough(x_.mid()));
     x_ = x_.scaled(-exponent);

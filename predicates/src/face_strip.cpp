@@ -28,6 +28,18 @@ void make_room(std::vector<T>& list) {
   if (list.size() == list.capacity()) list.reserve(2 * list.size() + 4);
 }
 
+/// The face with its source, seen over a side: that side, and opposite to it the source in the place of the corner.
+std::shared_ptr<FaceShape> seen_from_source(const FaceCorners& face, const std::array<mpq_class, 3>& weight, std::size_t side) {
+  const SpacePoint &from = face[side], &to = face[(side + 1) % 3], &opposite = face[(side + 2) % 3];
+  if (weight[(side + 2) % 3] == 1) return std::make_shared<FaceShape>(FaceCorners{from, to, opposite});
+  ExactPoint source{0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ExactPoint corner = exact_point(face[k]);
+    for (std::size_t i = 0; i < 3; ++i) source[i] += weight[k] * corner[i];
+  }
+  return std::make_shared<FaceShape>(from, to, source);
+}
+
 /// Which corner of the face is p; 3 if none.
 std::size_t find_corner(const FaceCorners& face, const SpacePoint& p) {
   return static_cast<std::size_t>(std::find(face.begin(), face.end(), p) - face.begin());
@@ -86,18 +98,8 @@ void FaceStrip::cross(const FaceCorners& face) {
   make_room(vertices_);
   make_room(strip_.steps);
   if (crossings() == 0) {
-    const mpq_class& across = source_[(side + 2) % 3];
-    if (sgn(across) == 0) throw std::invalid_argument("the first edge crossed contains the source");
-    auto root = [&] {
-      if (across == 1) return std::make_shared<FaceShape>(FaceCorners{target, origin, before[(side + 2) % 3]});
-      ExactPoint source{0, 0, 0};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const ExactPoint corner = exact_point(before[k]);
-        for (std::size_t i = 0; i < 3; ++i) source[i] += source_[k] * corner[i];
-      }
-      return std::make_shared<FaceShape>(target, origin, source);
-    }();
-    faces_[0] = std::move(root);
+    if (sgn(source_[(side + 2) % 3]) == 0) throw std::invalid_argument("the first edge crossed contains the source");
+    faces_[0] = seen_from_source(before, source_, side);
     exit_ = static_cast<std::uint8_t>(side);
   } else {
     if (side == 0) throw std::invalid_argument("a strip goes back over the edge by which it came in");

@@ -34,9 +34,8 @@ std::pair<Path, Path> without_common_legs(const Path& a, const Path& b) {
 /// In the square of the caller's units; empty if that is too long a sum.
 std::optional<RootSum> exact_squared_length(const Leg& leg) {
   const StripAccess at(leg.strip);
-  const auto d = with_roots(at, [&](auto& numbers) {
-    return numbers.coordinates(at.image(numbers)) - numbers.coordinates(at.in_last_face(numbers, leg.end));
-  });
+  const auto from_end = [&](auto& numbers) { return numbers.coordinates(at.image(numbers)) - numbers.coordinates(at.in_last_face(numbers, leg.end)); };
+  const auto d = with_roots(at, from_end);
   if (!d) return std::nullopt;
   return squared_norm(*d) * (at.last().exact().squared[0] * robust::power_of_two(2 * at.last().exponent()));
 }

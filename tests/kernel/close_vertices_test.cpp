@@ -77,30 +77,22 @@ TEST(CloseVertices, TheirOrderIsKnownToAnyNumberOfBits) {
 }
 
 TEST(CloseVertices, NobodyGuessesTheirOrder) {
-  // As above, ever closer, beyond the last bit that is asked for: then the hidden source may be called nearest, too, and it is said that something is open.
+  // As above, closer than error bounds of doubles allow for, which is said, and at last too close for 1024 bits, too: then the order is listed as open.
   const Mesh mesh(test::MeshArrays{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}}});
-  int open = 0;
-  for (const unsigned bits : {400u, 900u, 1010u, 1018u, 1022u, 1026u, 1030u, 1050u, 1060u}) {
+  for (const unsigned bits : {190u, 400u, 900u, 1030u}) {
     SCOPED_TRACE(bits);
     const mpq_class step = mpq_class(1) >> bits, half(1, 2), quarter(1, 4);
     const auto source = [&](int steps, double weight) { return Source{point_in_face(mesh, 0, {half + steps * step, quarter - steps * step, quarter}), weight}; };
-    const std::vector<Source> sources{source(0, 1), source(3, 1), source(1, 2)};
-    const auto solution = solve(mesh, sources, test::distances_only());
-    const bool certified = solution.status() == Status::certified;
-    open += !certified;
-    if (bits < 1000) {
-      EXPECT_TRUE(certified);
-    }
+    const auto solution = solve(mesh, {source(0, 1), source(3, 1), source(1, 2)}, test::distances_only());
+    EXPECT_EQ(solution.status(), bits < 200 ? Status::certified : Status::undecided);
+    const auto open = solution.decisions()(static_cast<std::size_t>(predicates::Predicate::vertex_distance), robust::Stage::undecided);
+    EXPECT_EQ(open > 0, bits > 800);
     const std::array<SourceId, 3> nearest = {1, 0, 0};
     for (VertexId v = 0; v < 3; ++v) {
       const auto told = solution.nearest(v);
       EXPECT_NE(std::find(told.begin(), told.end(), nearest[v]), told.end()) << v;
-      if (certified) {
-        EXPECT_EQ(told.size(), 1u) << v;
-      }
     }
   }
-  EXPECT_GT(open, 0);
 }
 
 TEST(CloseVertices, WhatADoubleCannotSayOfAPositionIsNotLeftOut) {

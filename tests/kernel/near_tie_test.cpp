@@ -83,6 +83,32 @@ TEST(NearTies, MpfrRoundsNearMidpoints) {
   EXPECT_GT(by_mpfr, 40u);
 }
 
+// Two sources tie at a point by their symmetry on one edge, which algebra proves; two others tie there, too, over too many square classes. Which pair is the nearer one is a matter of
+// 2^-150 and less.
+TEST(NearTies, MpfrTellsPairsApart) {
+  const Mesh mesh(mirrored_terrain());
+  const auto far = test::mirrored_sources(mesh, 0);
+  const VertexId low = kWidth / 2 + 2 * (kWidth + 1), high = low + kWidth + 1;
+  const SurfacePoint middle = point_on_edge(mesh, low, high, mpq_class(1, 2));
+  const double weight = solve(mesh, far, test::distances_only()).query(middle).distance - 0.25;
+  const auto ask = [&](const mpq_class& t) {
+    std::vector<Source> sources = far;
+    for (const mpq_class& at : {mpq_class(mpq_class(1, 2) - t), mpq_class(mpq_class(1, 2) + t)}) sources.push_back({point_on_edge(mesh, low, high, at), weight});
+    return solve(mesh, sources, test::distances_only()).query(middle);
+  };
+  // The last ones are the nearer ones where t is small.
+  mpq_class near = 0, away(1, 2);
+  ASSERT_EQ(ask(near + mpq_class(1, 1000)).nearest, (std::vector<SourceId>{2, 3}));
+  for (int step = 0; step < 180; ++step) {
+    const mpq_class t = (near + away) / 2;
+    const PointAnswer answer = ask(t);
+    const bool is_near = answer.nearest == std::vector<SourceId>{2, 3};
+    ASSERT_TRUE(is_near || answer.nearest == (std::vector<SourceId>{0, 1})) << step;
+    EXPECT_TRUE(!is_near || !answer.undecided) << step;
+    (is_near ? near : away) = t;
+  }
+}
+
 TEST(NearTies, MpfrTellsWhetherACornerIsHidden) {
   const test::Bump bump;
   const Mesh mesh(bump.arrays);

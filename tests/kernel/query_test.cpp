@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <stdexcept>
 
 #include "gvd/kernel/error.hpp"
 #include "gvd/robust/rational.hpp"
@@ -92,6 +93,74 @@ TEST(Query, TiesNameAllSources) {
   const SurfacePoint beside = in_face(middle.face, middle.bary[0] + tiny, middle.bary[1] + 2 * tiny, middle.bary[2] + 3 * tiny);
   expect_planar(mesh, sources, solution, beside);
   EXPECT_LT(solution.query(beside).nearest.size(), 3u);
+}
+
+/// The point of a mesh in the plane z = 0.
+SurfacePoint on_plane(const Mesh& mesh, const mpq_class& x, const mpq_class& y) {
+  for (FaceId f = 0; f < mesh.face_count(); ++f) {
+    std::array<mpq_class, 3> weight;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const ExactPoint p = mesh.exact_point(mesh.origin(3 * f + (k + 1) % 3)), q = mesh.exact_point(mesh.origin(3 * f + (k + 2) % 3));
+      weight[k] = (p[0] - x) * (q[1] - y) - (p[1] - y) * (q[0] - x);
+    }
+    if (std::all_of(weight.begin(), weight.end(), [](const mpq_class& w) { return w >= 0; })) return in_face(f, weight[0], weight[1], weight[2]);
+  }
+  throw std::logic_error("not a point of the mesh");
+}
+
+// Two sources as far, one through many faces, the other through few, so that the errors of the two differ: nearly halfway between two doubles one of them is rounded sooner.
+TEST(Query, NearlyHalfwayBetweenTwoDoubles) {
+  const Mesh mesh(test::flat_grid(20, 1));
+  const mpq_class x(21, 2), y(1, 8), half_ulp = robust::power_of_two(-50);
+  const SurfacePoint at = on_plane(mesh, x, y);
+  for (const bool swapped : {false, true}) {
+    for (int bits = 80; bits < 125; ++bits) {
+      for (const int side : {1, -1}) {
+        const mpq_class distance = 9 + half_ulp + side * robust::power_of_two(-bits);
+        const Source few{on_plane(mesh, x + distance - 8, y), 8}, many{on_plane(mesh, x - distance, y), 0};
+        const Solution solution = swapped ? test::solve_field(mesh, {many, few}) : test::solve_field(mesh, {few, many});
+        const PointAnswer answer = solution.query(at);
+        ASSERT_FALSE(answer.undecided);
+        EXPECT_EQ(answer.distance, side > 0 ? std::nextafter(9.0, 10.0) : 9.0) << bits;
+        EXPECT_EQ(answer.nearest, (std::vector<SourceId>{0, 1})) << bits;
+      }
+    }
+  }
+}
+
+// Beside the rays that bound what a source sees past a hole, by less than pairs of doubles tell.
+TEST(Query, JustInTheShadowOrNot) {
+  const Mesh mesh(test::plane_with_hole(6, 4, 2, 4, 1, 3));
+  const auto vertex_at = [&](double x, double y) {
+    VertexId v = 0;
+    while (mesh.point(v)[0] != x || mesh.point(v)[1] != y) ++v;
+    return v;
+  };
+  struct Ray {
+    Point source, corner;
+    std::array<mpq_class, 2> at, into_shadow;
+  };
+  const std::vector<Ray> rays{{{0, 0, 0}, {4, 1, 0}, {5, mpq_class(5, 4)}, {0, 1}},
+                              {{0, 0, 0}, {2, 3, 0}, {mpq_class(5, 2), mpq_class(15, 4)}, {1, 0}},
+                              {{6, 4, 0}, {2, 3, 0}, {1, mpq_class(11, 4)}, {0, -1}},
+                              {{6, 4, 0}, {4, 1, 0}, {mpq_class(7, 2), mpq_class(1, 4)}, {-1, 0}}};
+  for (const Ray& ray : rays) {
+    const VertexId source = vertex_at(ray.source[0], ray.source[1]), corner = vertex_at(ray.corner[0], ray.corner[1]);
+    const Solution solution = test::solve_field(mesh, {test::vertex_source(mesh, source)});
+    for (const int bits : {40, 100, 120, 200}) {
+      for (const int side : {1, -1}) {
+        const mpq_class step = side * robust::power_of_two(-bits);
+        const SurfacePoint at = on_plane(mesh, ray.at[0] + step * ray.into_shadow[0], ray.at[1] + step * ray.into_shadow[1]);
+        const auto length = [&](const ExactPoint& p, const ExactPoint& q) { return RootSum(1, squared_distance(p, q)); };
+        const ExactPoint from = mesh.exact_point(source), over = mesh.exact_point(corner), to = exact_position(mesh, at);
+        const PointAnswer answer = solution.query(at);
+        ASSERT_FALSE(answer.undecided);
+        EXPECT_EQ(answer.distance, (side > 0 ? length(from, over) + length(over, to) : length(from, to)).rounded());
+        const auto path = solution.path(at).path;
+        EXPECT_EQ(std::any_of(path.begin(), path.end(), [&](const PathPoint& p) { return p.vertex == corner; }), side > 0) << bits;
+      }
+    }
+  }
 }
 
 TEST(Query, UnitCubeInClosedForm) {

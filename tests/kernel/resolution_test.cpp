@@ -107,7 +107,7 @@ TEST(StaleWindows, AreNotHeard) {
   const Mesh mesh(test::mirrored_terrain());
   for (const auto& sources : {test::mirrored_sources(mesh, 0), at_vertices(mesh, {0, 40})}) {
     const test::FieldFacets plain(mesh, sources);
-    for (const double nearer : {0.0, 1e-3}) expect_same_nearest(plain, test::FieldFacets(mesh, sources, [&](DistanceField& field) { add_stale_twins(field, nearer); }));
+    for (const double nearer : {0.0, 1e-3}) expect_same_nearest(plain, test::FieldFacets(mesh, sources, [&](DistanceField& field, const Frames&) { add_stale_twins(field, nearer); }));
   }
 }
 
@@ -126,7 +126,7 @@ TEST(StaleWindows, AreNotWaitedFor) {
   for (const double weight : {0.0, 100.0}) {
     const auto sources = close_sources(mesh, weight);
     const test::FieldFacets plain(mesh, sources);
-    expect_same_nearest(plain, test::FieldFacets(mesh, sources, [&](DistanceField& field) { add_stale_twins(field, 0); }));
+    expect_same_nearest(plain, test::FieldFacets(mesh, sources, [&](DistanceField& field, const Frames&) { add_stale_twins(field, 0); }));
   }
 }
 
@@ -134,7 +134,7 @@ TEST(StaleWindows, AreNotWaitedFor) {
 TEST(StaleWindows, ShowTheirRootAsFarAsTheirTwins) {
   const Mesh mesh(test::mirrored_terrain());
   std::uint32_t count = 0;
-  const test::FieldFacets field(mesh, test::mirrored_sources(mesh, 0), [&](DistanceField& changed) {
+  const test::FieldFacets field(mesh, test::mirrored_sources(mesh, 0), [&](DistanceField& changed, const Frames&) {
     count = static_cast<std::uint32_t>(changed.windows.size());
     add_stale_twins(changed, 0);
   });
@@ -167,6 +167,30 @@ TEST(StaleWindows, AreDeadWithAllThatComesFromThem) {
   }
   EXPECT_GT(dead, 0);
   EXPECT_GT(alive, 0);
+}
+
+// --- Candidates that are certainly longer ---
+
+/// To each vertex the edges from all its neighbours, as if propagation had not been sure that they are longer; and errors that are larger than they have to be.
+void add_all_edges(DistanceField& field, const Frames& frames) {
+  const Mesh& mesh = frames.mesh();
+  const auto add = [&](VertexId via, VertexId v, double length) {
+    if (!std::isfinite(field.distance[via])) return;
+    const double distance = field.distance[via] + length;
+    field.candidates.push_back({kNone, via, field.first_candidate[v], distance, field.error[via] + 0x1p-40 * distance, {0, 0}});
+    field.first_candidate[v] = static_cast<std::uint32_t>(field.candidates.size() - 1);
+  };
+  for (HalfedgeId h = 0; h < mesh.halfedge_count(); ++h) {
+    add(mesh.origin(h), mesh.target(h), frames(h).length);
+    if (mesh.twin(h) == kNone) add(mesh.target(h), mesh.origin(h), frames(h).length);
+  }
+}
+
+TEST(LongerCandidates, ChangeNothing) {
+  const Mesh mirrored(test::mirrored_terrain()), rough(test::random_terrain(3, 0.5, 7)), flat(test::flat_grid(4, 3));
+  for (const auto& [mesh, sources] : {std::pair{&mirrored, test::mirrored_sources(mirrored, 0)}, {&rough, close_sources(rough, 0)}, {&rough, close_sources(rough, 100)},
+                                      {&flat, at_vertices(flat, {0, 19})}, {&rough, at_vertices(rough, {3})}})
+    expect_same_nearest(test::FieldFacets(*mesh, sources), test::FieldFacets(*mesh, sources, add_all_edges));
 }
 
 // --- Lengths ---

@@ -155,6 +155,23 @@ TEST(AngleSum, OfThousandsOfCorners) {
   }
 }
 
+// Hundreds of turns: errors of both coordinates add up at each corner, until few bits do not know any more how often the product has turned. Then they say nothing, more bits do.
+TEST(AngleSum, OfHundredsOfTurns) {
+  std::vector<ExactCorner> fan(600, ExactCorner{1, 3});              // each a sixth of a turn
+  fan.insert(fan.end(), 20, ExactCorner{0, 1});                      // each a quarter
+  const int turns = 600 * 2 / 3 + 20;
+  for (const int quarter_turns : {4, turns - 1, turns, turns + 1}) {
+    SCOPED_TRACE(quarter_turns);
+    const Sign truth = quarter_turns < turns ? Sign::positive : quarter_turns > turns ? Sign::negative : Sign::zero;
+    EXPECT_EQ(double_double_compare_angle_sum(fan, quarter_turns), std::nullopt);
+    EXPECT_EQ(exact_compare_angle_sum(fan, quarter_turns), std::nullopt);
+    EXPECT_EQ(multiprecision_compare_angle_sum(fan, quarter_turns, 128), std::nullopt);
+    const MaybeSign known = truth == Sign::zero ? std::nullopt : MaybeSign(truth);
+    EXPECT_EQ(multiprecision_compare_angle_sum(fan, quarter_turns, 1024), known);
+    EXPECT_EQ(compare_angle_sum(fan, quarter_turns).sign, known);
+  }
+}
+
 TEST(AngleSum, RandomFansAtAllScales) {
   test::Random random(1);
   for (int round = 0; round < 600; ++round) {

@@ -17,7 +17,7 @@ namespace gvd::test {
 class FieldFacets {
  public:
   /// `change`: what is done to the field between propagation and resolution.
-  FieldFacets(const kernel::Mesh& mesh, const std::vector<kernel::Source>& sources, const std::function<void(kernel::DistanceField&)>& change = {})
+  FieldFacets(const kernel::Mesh& mesh, const std::vector<kernel::Source>& sources, const std::function<void(kernel::DistanceField&, const kernel::Frames&)>& change = {})
       : refined_(kernel::refine(mesh, sources, where_)) {
     frames_ = std::make_unique<kernel::Frames>(refined_);
     kinds_ = kernel::classify_vertices(refined_, decisions_);
@@ -27,7 +27,7 @@ class FieldFacets {
       starts.push_back({where_.vertex[i], std::ldexp(where_.weight[i], -frames_->scale())});
     }
     kernel::propagate(*frames_, starts, kinds_, field_, decisions_);
-    if (change) change(field_);
+    if (change) change(field_, *frames_);
     resolution_ = std::make_unique<kernel::Resolution>(*frames_, field_, source_vertices_, sets_);
     resolution_->resolve(decisions_);
   }
