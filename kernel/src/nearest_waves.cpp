@@ -84,7 +84,7 @@ class NearestSearch {
     for (const std::size_t i : kept) {
       all.low = std::min(all.low, distance[i].lower());
       all.high = std::max(all.high, distance[i].upper());
-      rounds_alike = rounds_alike && rounded(distance[i]) == value;
+      if (rounded(distance[i]) != value) rounds_alike = false;
     }
     all.value = rounds_alike ? *value : robust::Midpoint<typename NT::Mid>::nearest(distance[kept.front()].mid());
     result_.distance = all;
@@ -139,8 +139,8 @@ class NearestSearch {
       const auto at = resolution_.exact_unfolding(site.window);
       if (!at) return std::nullopt;
       image = at->image;
-      outside = predicates::orientation(image, at->cone0, p).sign() == Sign::positive ||
-                predicates::orientation(image, at->cone1, p).sign() == Sign::negative;
+      const auto side_of = [&](const predicates::RootPoint& cone) { return predicates::orientation(image, cone, p).sign(); };
+      outside = side_of(at->cone0) == Sign::positive || side_of(at->cone1) == Sign::negative;
       if (outside) return std::nullopt;
     }
     const auto distance = resolution_.exact_distance(site.root);

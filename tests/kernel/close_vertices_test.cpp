@@ -95,6 +95,23 @@ TEST(CloseVertices, NobodyGuessesTheirOrder) {
   }
 }
 
+TEST(CloseVertices, AHiddenSourceBesideAVertexChangesNothing) {
+  // Doubles do not tell which of the two is nearer. Where the vertex relays and goes first, what it has sent is to be sent again when the other one shows a second path to it.
+  const Mesh mesh(test::random_terrain(6, 1.5, 11));
+  const auto plain = solve(mesh, {test::at_vertex(mesh, 0)}, test::distances_only());
+  for (VertexId v = 1; v < mesh.vertex_count(); ++v) {
+    SCOPED_TRACE(v);
+    std::vector<VertexId> neighbours;
+    mesh.for_each_outgoing(v, [&](HalfedgeId h) { neighbours.push_back(mesh.target(h)); });
+    for (const VertexId to : neighbours) {
+      const auto solution = solve(mesh, {test::at_vertex(mesh, 0), {point_on_edge(mesh, v, to, mpq_class(1) >> 58), 1000}}, test::distances_only());
+      ASSERT_TRUE(test::is_certified(solution));
+      for (VertexId u = 0; u < mesh.vertex_count(); ++u) EXPECT_EQ(solution.distance(u), plain.distance(u)) << u;
+    }
+    if (HasFailure()) return;
+  }
+}
+
 TEST(CloseVertices, WhatADoubleCannotSayOfAPositionIsNotLeftOut) {
   // Beside a vertex of a tiny mesh positions have 24 bits, and what is left of them is below the least double. One source is 1e-4 of their last bit
   // nearer, and would be 1.2 farther if both were rounded.

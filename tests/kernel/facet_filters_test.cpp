@@ -137,7 +137,7 @@ TEST(FacetFilters, VerticesOnARayAreThoseOfLongNumbers) {
     const double length = std::hypot(relay[0] - parent[0], relay[1] - parent[1]), aside = round % 2 == 0 ? scale(random, -50) : random.uniform(-1, 1);
     const Point2 along{(relay[0] - parent[0]) / length, (relay[1] - parent[1]) / length};
     // Behind the relay, or in front of it; a little later than the relay is there, or by no more than the way from one to the other.
-    const double behind = random.uniform(-2, 2), late = random.below(3) == 0 ? scale(random, -50) : random.uniform(-2, 2);
+    const double behind = random.uniform(-2, 2), late = random.below(3) == 0 ? (random.below(2) == 0 ? 1 : -1) * scale(random, -50) : random.uniform(-2, 2);
     const Point2 other{relay[0] - behind * along[0] + aside * along[1], relay[1] - behind * along[1] - aside * along[0]};
     const double weight = 3, of_other = weight + length - behind + late;
     const Point2 far_side{parent[0] + 4, parent[1]};  // the cone: between the relay and what lies to its right
