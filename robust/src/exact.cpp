@@ -86,9 +86,10 @@ class Evaluation {
         return of(*e.left) - of(*e.right);
       case Operation::multiply:
         return of(*e.left) * of(*e.right);
-      default:
-        return of(*e.left) / of(*e.right);
+      case Operation::divide:
+        break;
     }
+    return of(*e.left) / of(*e.right);
   }
 
   int bits_;

@@ -25,11 +25,6 @@ void extend(Mpfr& low, Mpfr& high, Operation* operation, const MpfrInterval& a, 
 
 }  // namespace
 
-MpfrInterval::MpfrInterval(const mpq_class& q, int bits) : MpfrInterval(bits) {
-  mpfr_set_q(low_.get(), q.get_mpq_t(), MPFR_RNDD);
-  mpfr_set_q(high_.get(), q.get_mpq_t(), MPFR_RNDU);
-}
-
 MpfrInterval::MpfrInterval(const mpz_class& n, int bits) : MpfrInterval(bits) {
   mpfr_set_z(low_.get(), n.get_mpz_t(), MPFR_RNDD);
   mpfr_set_z(high_.get(), n.get_mpz_t(), MPFR_RNDU);

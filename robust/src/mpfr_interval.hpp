@@ -11,7 +11,6 @@ namespace gvd::robust {
 class MpfrInterval {
  public:
   explicit MpfrInterval(int bits) : low_(0.0, bits), high_(0.0, bits) {}
-  MpfrInterval(const mpq_class& q, int bits);
   MpfrInterval(const mpz_class& n, int bits);
 
   const Mpfr& low() const noexcept { return low_; }

@@ -92,10 +92,40 @@ FacetNumbers<M> long_numbers(FacetWaves& waves) {
 }
 double to_double(const M& x) { return x.mid().to_double(); }
 
+/// What a filter said about vertices.
+struct Tally {
+  int found = 0, none = 0, unknown = 0;
+  void expect_all_kinds() const {
+    EXPECT_GT(found, 0);
+    EXPECT_GT(none, 0);
+    EXPECT_GT(unknown, 0);
+  }
+};
+
+/// The vertex in long numbers, relative to wave j, is to be in the facet, and where `is_seen` holds, just if the filter says so.
+template <class Said, class Truth, class IsSeen>
+void expect_alike(const Said& said, const Truth& truth, const FacetNumbers<M>& numbers, std::uint32_t j, Tally& tally, const IsSeen& is_seen) {
+  using predicates::operator+;
+  using predicates::operator-;
+  (!said.certain ? tally.unknown : said.exists ? tally.found : tally.none) += 1;
+  if (!said.certain || truth.existence == Existence::open) return;
+  bool exists = truth.existence == Existence::proved;
+  if (exists) {
+    const auto p = truth.p + numbers.sites[j]->image;
+    if (said.exists) {
+      EXPECT_LE(std::hypot(to_double(p.x - M(said.at.p.x)), to_double(p.y - M(said.at.p.y))), said.at.radius);
+    }
+    for (const auto& side : numbers.side) exists = exists && maybe_sign(cross(side.direction, p - side.origin)) == Sign::positive;
+    exists = exists && is_seen(p);
+  }
+  EXPECT_EQ(said.exists, exists);
+}
+
 TEST(FacetFilters, VerticesAreThoseOfLongNumbers) {
   Random random(4100);
-  int found = 0, none = 0, unknown = 0;
+  Tally tally;
   for (int round = 0; round < 30000 && !HasFailure(); ++round) {
+    SCOPED_TRACE(round);
     FreeWaves waves = awkward_waves(random);
     Filters at(waves);
     if (at.ladder.failed() || at.contenders.size() != waves.sites.size()) continue;
@@ -103,33 +133,18 @@ TEST(FacetFilters, VerticesAreThoseOfLongNumbers) {
     const FacetNumbers<M> numbers = long_numbers(waves);
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::array<std::uint32_t, 3> ijk = round % 2 == 0 ? std::array{i, (i + 1) % 3, (i + 2) % 3} : std::array{i, (i + 2) % 3, (i + 1) % 3};
-      const auto said = filter.judge(ijk, {}, {});
-      const auto truth = vertex_of(waves, numbers, ijk[0], ijk[1], ijk[2]);
-      (!said.certain ? unknown : said.exists ? found : none) += 1;
-      if (!said.certain || truth.existence == Existence::open) continue;
-      bool exists = truth.existence == Existence::proved;
-      if (exists) {
-        using predicates::operator+;
-        using predicates::operator-;
-        const auto p = truth.p + numbers.sites[ijk[1]]->image;
-        if (said.exists) {
-          EXPECT_LE(std::hypot(to_double(p.x - M(said.at.p.x)), to_double(p.y - M(said.at.p.y))), said.at.radius) << round;
-        }
-        for (const auto& side : numbers.side) exists = exists && maybe_sign(cross(side.direction, p - side.origin)) == Sign::positive;
-      }
-      EXPECT_EQ(said.exists, exists) << round;
+      expect_alike(filter.judge(ijk, {}, {}), vertex_of(waves, numbers, ijk[0], ijk[1], ijk[2]), numbers, ijk[1], tally, [](const auto&) { return true; });
     }
   }
-  EXPECT_GT(found, 0);
-  EXPECT_GT(none, 0);
-  EXPECT_GT(unknown, 0);
+  tally.expect_all_kinds();
 }
 
 // A relay on a boundary ray of its parent, and a third wave that comes along nearly the same line, or as it likes.
 TEST(FacetFilters, VerticesOnARayAreThoseOfLongNumbers) {
   Random random(4300);
-  int found = 0, none = 0, unknown = 0;
+  Tally tally;
   for (int round = 0; round < 30000 && !HasFailure(); ++round) {
+    SCOPED_TRACE(round);
     const Point2 apex{random.uniform(0, 1), random.uniform(0.3, 1.2)};
     FreeWaves waves(apex);
     const double away = scale(random, -20);
@@ -146,27 +161,11 @@ TEST(FacetFilters, VerticesOnARayAreThoseOfLongNumbers) {
     waves.add(other, std::max(0.0, of_other), 3);
     Filters at(waves);
     if (at.ladder.failed() || at.contenders.size() != 3) continue;
-    const auto said = VertexFilter(at.filter, at.contenders).judge({0, 1, 2}, VertexFilter::OnRay{0, 1, 2, 0}, {});
-    (!said.certain ? unknown : said.exists ? found : none) += 1;
     const FacetNumbers<M> numbers = long_numbers(waves);
-    const auto truth = vertex_on_ray(waves, numbers, 0, 1, 2);
-    if (!said.certain || truth.existence == Existence::open) continue;
-    bool exists = truth.existence == Existence::proved;
-    if (exists) {
-      using predicates::operator+;
-      using predicates::operator-;
-      const auto p = truth.p + numbers.sites[1]->image;
-      if (said.exists) {
-        EXPECT_LE(std::hypot(to_double(p.x - M(said.at.p.x)), to_double(p.y - M(said.at.p.y))), said.at.radius) << round;
-      }
-      for (const auto& side : numbers.side) exists = exists && maybe_sign(cross(side.direction, p - side.origin)) == Sign::positive;
-      exists = exists && maybe_sign(cone_side(*numbers.sites[0], 1, p)) == Sign::positive;
-    }
-    EXPECT_EQ(said.exists, exists) << round;
+    expect_alike(VertexFilter(at.filter, at.contenders).judge({0, 1, 2}, VertexFilter::OnRay{0, 1, 2, 0}, {}), vertex_on_ray(waves, numbers, 0, 1, 2), numbers, 1, tally,
+                 [&](const auto& p) { return maybe_sign(cone_side(*numbers.sites[0], 1, p)) == Sign::positive; });
   }
-  EXPECT_GT(found, 0);
-  EXPECT_GT(none, 0);
-  EXPECT_GT(unknown, 0);
+  tally.expect_all_kinds();
 }
 
 /// The wave that is the nearest at corner k; empty if two are as near.

@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "gvd/predicates/cone_row.hpp"
-#include "gvd/predicates/wave.hpp"
+#include "support/true_wave.hpp"
 
 namespace {
 
@@ -14,40 +12,26 @@ using gvd::predicates::BisectorPiece;
 using gvd::predicates::DoubleLine;
 using gvd::predicates::DoublePoint;
 using gvd::predicates::DoubleWave;
-using Long = gvd::robust::Ball<gvd::robust::Mpfr>;
-using LongPoint = gvd::predicates::PlanePoint<Long>;
+using gvd::test::distance;
+using gvd::test::Long;
+using gvd::test::LongPoint;
+using gvd::test::nearest;
+using gvd::test::TrueWave;
+using gvd::test::wide;
 using gvd::predicates::operator-;
 
-constexpr int kBits = 300;
-Long wide(double x) { return gvd::robust::from_double<Long>(x, kBits); }
-double nearest(const Long& x) { return x.mid().to_double(); }
-LongPoint wide(const DoublePoint& p) { return {wide(p.x), wide(p.y)}; }
-
-/// A wave that the doubles of another one may stand for.
-struct TrueWave {
-  LongPoint image;
-  Long weight;
-};
-Long distance(const TrueWave& wave, const LongPoint& p) { return wave.weight + sqrt(squared_norm(p - wave.image)); }
-
 /// Waves round the unit circle with errors, and the true ones.
-class Family {
+class Family : public gvd::test::Shares {
  public:
-  explicit Family(unsigned seed) : random_(seed) {}
-  double share() { return 2 * unit_(random_) - 1; }
-  DoublePoint point() { return {share(), share()}; }
+  using Shares::Shares;
   DoubleWave wave() {
-    const double size = std::ldexp(1.0, static_cast<int>(random_() % 8));
-    return {{size * share(), size * share()}, size * std::fabs(share()), std::ldexp(std::fabs(share()), -20 - static_cast<int>(random_() % 30))};
+    const double size = std::ldexp(1.0, static_cast<int>(bits() % 8));
+    return {{size * share(), size * share()}, size * std::fabs(share()), std::ldexp(std::fabs(share()), -20 - static_cast<int>(bits() % 30))};
   }
   TrueWave member(const DoubleWave& wave) {
     const double part = 0.4 * wave.error;
     return {{wide(wave.image.x) + wide(part * share()), wide(wave.image.y) + wide(part * share())}, wide(wave.weight) + wide(part * share())};
   }
-
- private:
-  std::mt19937_64 random_;
-  std::uniform_real_distribution<double> unit_{0, 1};
 };
 
 struct Pair {

@@ -1,10 +1,8 @@
 // Waves and their cones side by side, against long numbers (docs/error-bounds.md#rows-of-waves).
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "gvd/predicates/cone_row.hpp"
-#include "gvd/predicates/wave.hpp"
+#include "support/true_wave.hpp"
 
 namespace {
 
@@ -13,42 +11,30 @@ using gvd::predicates::DoubleLine;
 using gvd::predicates::DoublePoint;
 using gvd::predicates::DoubleWave;
 using gvd::predicates::WaveRow;
-using Long = gvd::robust::Ball<gvd::robust::Mpfr>;
-using LongPoint = gvd::predicates::PlanePoint<Long>;
+using gvd::test::distance;
+using gvd::test::Long;
+using gvd::test::LongPoint;
+using gvd::test::nearest;
+using gvd::test::TrueWave;
+using gvd::test::wide;
 using gvd::predicates::operator-;
 
 constexpr double kUnit = gvd::predicates::kUnit;
-Long wide(double x) { return gvd::robust::from_double<Long>(x, 400); }
-LongPoint wide(const DoublePoint& p) { return {wide(p.x), wide(p.y)}; }
-double nearest(const Long& x) { return x.mid().to_double(); }
 std::pmr::memory_resource* room() { return std::pmr::new_delete_resource(); }
 
-/// A wave that the doubles of another one may stand for.
-struct TrueWave {
-  LongPoint image;
-  Long weight;
-};
-Long distance(const TrueWave& wave, const LongPoint& p) { return wave.weight + sqrt(squared_norm(p - wave.image)); }
-
-class Family {
+class Family : public gvd::test::Shares {
  public:
-  explicit Family(unsigned seed) : random_(seed) {}
-  double share() { return 2 * unit_(random_) - 1; }
-  double size() { return std::ldexp(1.0, static_cast<int>(random_() % 12) - 6); }
-  std::size_t count() { return 1 + random_() % 9; }
-  DoublePoint point() { return {share(), share()}; }
+  using Shares::Shares;
+  double size() { return std::ldexp(1.0, static_cast<int>(bits() % 12) - 6); }
+  std::size_t count() { return 1 + bits() % 9; }
   DoubleWave wave() {
     const double far = size();
-    return {{far * share(), far * share()}, far * std::fabs(share()), std::ldexp(std::fabs(share()), -20 - static_cast<int>(random_() % 40))};
+    return {{far * share(), far * share()}, far * std::fabs(share()), std::ldexp(std::fabs(share()), -20 - static_cast<int>(bits() % 40))};
   }
   TrueWave member(const DoubleWave& wave) {
     const double turn = 3.2 * share(), part = 0.5 * wave.error * std::fabs(share()), rest = wave.error - part;
     return {{wide(wave.image.x) + wide(part * std::cos(turn)), wide(wave.image.y) + wide(part * std::sin(turn))}, wide(wave.weight) + wide(rest * share())};
   }
-
- private:
-  std::mt19937_64 random_;
-  std::uniform_real_distribution<double> unit_{0, 1};
 };
 
 /// The literals against their derivations, to all orders.
